@@ -12,8 +12,7 @@ module             contents
 `supervise`        a script that ends a process with all its descendants
 `runner`           starts a child with limits and reads its results
 `grading`          all exercises of all students, several at a time
-`junit`            results as JUnit XML
-`pages`            results as pages without JavaScript
+`pages`            results as pages without JavaScript, and as JUnit XML
 `launch_file`      a launch file that runs an exercise on the network
 `roster`           the names of the students, and their domains
 `domain_watch`     the nodes, turtles and transforms of one student's domain

@@ -11,16 +11,15 @@ import base64
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire.base import MessageInfo, NodeInfo, TypeId
-from turtlewire.wire.local.endpoint import LocalEndpointSpec
-from turtlewire.wire.local.node import LocalNodeState, LocalPublisher, LocalSubscription
+from turtlewire.wire.local.bus import LocalEndpointSpec
+from turtlewire.wire.local.context import LocalNodeState, LocalPublisher, LocalSubscription
 from turtlewire.wire.qos import Durability, History, Liveliness, QoS, Reliability
 from turtlewire.wire.reader_thread import ReaderThread
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from turtlewire.wire.local.bus import Bus
-    from turtlewire.wire.local.endpoint import LocalEndpoint, Message
+    from turtlewire.wire.local.bus import Bus, LocalEndpoint, Message
 
 __all__ = ["FarEnd", "Hub", "News"]
 

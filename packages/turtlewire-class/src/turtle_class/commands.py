@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING
 from turtle_class import ClassError
 from turtle_class.catalogue import LAUNCH_FILE, chosen, exercises
 from turtle_class.grading import grade_all, students_in
-from turtle_class.junit import as_junit
 from turtle_class.launch_file import launch_text
-from turtle_class.pages import overview, student_page
+from turtle_class.pages import as_junit, overview, student_page
 from turtle_class.runner import Limits
 from turtle_lesson.lesson import load_lesson
 from turtlewire.terminal.printable import printable

@@ -15,25 +15,21 @@ module              contents
 `source`            `Source`, `Timeline`: the origin of frames and messages, and their time
 `live`              `LiveSource`: the network
 `bag_source`        `BagSource`: a bag with its own time
-`buffer_source`     `BufferSource`: a buffer of the program
-`robot_source`      `RobotSource`: a robot with joints that pages move
+`buffer_source`     `BufferSource`, `RobotSource`: a buffer of the program; a robot with joints
 `named_robots`      the robot of a path, or of a name of ``robot_descriptions``
-`parameter_watch`   reads a parameter of a node
-`service_watch`     calls a service when its server appears
+`service_watch`     calls a service when its server appears; reads a parameter of a node
 `base`              the reference of poses: fixed frame, origin, buffer
 `interactive_feedback`  feedback on interactive markers, as messages
 `frames`            `FrameScene`: all poses in one frame, at one time, as one array
-`tree`              the rows of the tree; the pose of one frame in another
-`words`             such a pose as a sentence
+`tree`              the rows of the tree; the pose of one frame in another, also as a sentence
 `display_feed`      a display of a page: waits for transforms, makes packets
 `displays`          the drawing of each type of message
 `meshes`            meshes of packages: addresses to URLs, URLs to files
 `package_folders`   finds packages: named by the user, around a URDF, in the ament index
 `page_commands`     the commands of the page
 `page_requests`     publish with a tool, save a view
-`rviz_file`         views of ``.rviz`` files
+`rviz_file`         views of ``.rviz`` files, with their camera
 `rviz_writing`      views as ``.rviz`` files
-`rviz_camera`       the camera of such files
 `rviz_options`      options of RViz's displays and of the page's
 `rviz_values`       their values in both
 `showing`           ``turtlewire.show``

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import argparse
 
-    from turtlewire_view.graph.selection import Selection
+    from turtlewire_view.graph.picture import Selection
 
 __all__ = ["add_graph_command"]
 
@@ -54,7 +54,7 @@ def add_graph_command(commands: Any) -> None:
 
 def _graph(args: argparse.Namespace) -> int:
     from turtlewire.errors import WireError
-    from turtlewire_view.graph.selection import Selection
+    from turtlewire_view.graph.picture import Selection
 
     selection = Selection(args.topics, args.debug, args.filter)
     try:
@@ -72,8 +72,7 @@ def _save(path: str, selection: Selection) -> int:
     from turtlewire.doctor import network
     from turtlewire.doctor.setup_findings import wait_for_graph
     from turtlewire_view.graph.files import writer_for
-    from turtlewire_view.graph.picture import read_graph
-    from turtlewire_view.graph.selection import select
+    from turtlewire_view.graph.picture import read_graph, select
 
     writer = writer_for(path)
     with contextlib.closing(wire.open_context()) as context:

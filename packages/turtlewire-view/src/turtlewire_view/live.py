@@ -18,8 +18,7 @@ from turtlewire.tf.tf_topics import TfTopics
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.names import validate_namespace
 from turtlewire.wire.qos import Durability, QoS, Reliability, fit_subscription
-from turtlewire_view.parameter_watch import ParameterWatch
-from turtlewire_view.service_watch import ServiceWatch
+from turtlewire_view.service_watch import ParameterWatch, ServiceWatch
 from turtlewire_view.source import (
     Joints,
     ParameterAnswer,

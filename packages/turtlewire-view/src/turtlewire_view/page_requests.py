@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire import msg
 from turtlewire.web.commands import CommandError, is_finite_number
-from turtlewire_view.rviz_camera import is_camera
-from turtlewire_view.rviz_file import SavedDisplay, SavedView
+from turtlewire_view.rviz_file import SavedDisplay, SavedView, is_camera
 from turtlewire_view.rviz_writing import write_rviz
 
 if TYPE_CHECKING:

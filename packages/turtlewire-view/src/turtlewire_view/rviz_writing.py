@@ -5,11 +5,11 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
-from turtlewire_view.rviz_camera import camera_properties
 from turtlewire_view.rviz_file import (
     SWITCHES,
     SavedDisplay,
     SavedView,
+    camera_properties,
     numbered_displays,
     short_class,
 )
@@ -18,7 +18,7 @@ from turtlewire_view.rviz_options import CLASSES, class_for, to_rviz
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from turtlewire_view.rviz_camera import Camera
+    from turtlewire_view.rviz_file import Camera
 
 __all__ = ["write_rviz"]
 

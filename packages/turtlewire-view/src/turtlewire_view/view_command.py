@@ -118,7 +118,7 @@ def _source(args: argparse.Namespace) -> tuple[Source, PackageFolders]:
         raise RvizFileError(f"{what} is not a bag. To load an RViz file: -d {what}")
     found = find_robot(what, named)
     if found is not None:
-        from turtlewire_view.robot_source import RobotSource
+        from turtlewire_view.buffer_source import RobotSource
 
         return RobotSource(found.robot), found.packages
     return _bag(what, args.fixed_frame, limit), PackageFolders(named)

@@ -17,7 +17,6 @@ from websockets.sync.client import connect
 
 from turtlewire import msg
 from turtlewire_view.foxglove.channel import FoxgloveChannel
-from turtlewire_view.foxglove.origins import refusal
 from turtlewire_view.foxglove.protocol import (
     ClientMessage,
     ProtocolError,
@@ -25,6 +24,7 @@ from turtlewire_view.foxglove.protocol import (
     parse_binary,
     parse_text,
 )
+from turtlewire_view.foxglove.server import refusal
 from turtlewire_view.foxglove.session import FoxgloveSession
 
 from .conftest import Client

@@ -10,7 +10,7 @@ from turtlewire import msg
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.parser import parse_message
 from turtlewire_view.foxglove.connections import GraphConnections, difference
-from turtlewire_view.foxglove.parameter_values import from_json, to_json
+from turtlewire_view.foxglove.parameters import from_json, to_json
 from turtlewire_view.foxglove.schemas import full_name, schema
 
 floats = st.floats(allow_nan=True, allow_infinity=True)

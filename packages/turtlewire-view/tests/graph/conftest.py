@@ -11,11 +11,11 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from turtlewire import msg, wire
-from turtlewire.wire import matching
+from turtlewire.wire import conflicts
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 from turtlewire_view.graph.graph_page import GraphPage
-from turtlewire_view.graph.selection import Selection
+from turtlewire_view.graph.picture import Selection
 
 LIMIT_S = 120
 DEFAULT = QoS()
@@ -100,7 +100,7 @@ def node_names(message):
 @pytest.fixture(autouse=True)
 def _compares_qos(monkeypatch):
     """Let QoS keep endpoints apart, whatever the middleware of this machine is."""
-    monkeypatch.setattr(matching, "compares_qos", lambda: True)
+    monkeypatch.setattr(conflicts, "compares_qos", lambda: True)
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ import subprocess
 from tests.places import BIN, HOW_TO, PATH
 
 from turtlewire_view.graph.files import as_data
-from turtlewire_view.graph.selection import Selection
+from turtlewire_view.graph.picture import Selection
 
 from .pictures import robot
 

@@ -9,7 +9,7 @@ import pytest
 
 from turtlewire.wire.qos import INFINITE_NS, QoS
 from turtlewire_view.graph.files import as_dot, as_json, as_svg, writer_for
-from turtlewire_view.graph.selection import Selection
+from turtlewire_view.graph.picture import Selection
 
 from .pictures import STRING, KnownGraph, large, robot
 

@@ -10,7 +10,7 @@ import pytest
 from turtlewire_view.graph.diagram import Arrow, Box, Diagram, make_diagram
 from turtlewire_view.graph.layers import make_layers
 from turtlewire_view.graph.layout import make_layout
-from turtlewire_view.graph.selection import Selection, select
+from turtlewire_view.graph.picture import Selection, select
 
 from .pictures import KnownGraph, large, robot
 

@@ -6,8 +6,7 @@ import pytest
 
 from turtlewire.wire.qos import QoS
 from turtlewire_view.graph.diagram import make_diagram
-from turtlewire_view.graph.picture import UNKNOWN, read_graph
-from turtlewire_view.graph.selection import Selection, select
+from turtlewire_view.graph.picture import UNKNOWN, Selection, read_graph, select
 
 from .pictures import BEST_EFFORT, STRING, KnownGraph, robot
 

@@ -10,8 +10,7 @@ import pytest
 from turtlewire import msg
 from turtlewire_view import Viewer
 from turtlewire_view.displays import displays_of, further_kinds
-from turtlewire_view.displays.camera import CameraDisplay, CompressedCameraDisplay
-from turtlewire_view.displays.camera_model import info_topic
+from turtlewire_view.displays.camera import CameraDisplay, CompressedCameraDisplay, info_topic
 from turtlewire_view.displays.content import Content
 from turtlewire_view.rviz_file import read_rviz
 from turtlewire_view.rviz_writing import write_rviz

@@ -8,7 +8,7 @@ import pytest
 
 import turtlewire
 from turtlewire.urdf import Robot
-from turtlewire_view.robot_source import RobotSource
+from turtlewire_view.buffer_source import RobotSource
 
 URDF = """<robot name="crane">
   <link name="mast"/><link name="boom"/><link name="hook"/><link name="flag"/>

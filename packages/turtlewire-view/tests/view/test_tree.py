@@ -7,8 +7,13 @@ import math
 import pytest
 
 from turtlewire import Buffer
-from turtlewire_view.tree import TreeTable, missing_frame, path_between, relation
-from turtlewire_view.words import transform_in_words
+from turtlewire_view.tree import (
+    TreeTable,
+    missing_frame,
+    path_between,
+    relation,
+    transform_in_words,
+)
 
 SECOND = 10**9
 IDENTITY = (0.0, 0.0, 0.0, 1.0)

@@ -16,8 +16,7 @@ from turtlewire.errors import WireError
 from turtlewire.wire import environment, open_context, report
 from turtlewire.wire.cyclone import library as dds
 from turtlewire.wire.cyclone.configuration import domain_configuration
-from turtlewire.wire.environment import Discovery, Range
-from turtlewire.wire.lingering import leaving_at_once
+from turtlewire.wire.environment import Discovery, Range, leaving_at_once
 
 VARIABLES = [
     "ROS_DOMAIN_ID",

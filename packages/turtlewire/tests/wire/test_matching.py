@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from turtlewire.wire import matching
+from turtlewire.wire import conflicts
 from turtlewire.wire.base import EndpointInfo
-from turtlewire.wire.matching import obstacles
+from turtlewire.wire.conflicts import obstacles
 from turtlewire.wire.qos import INFINITE_NS, Durability, Liveliness, QoS, Reliability
 
 SECOND = 10**9
@@ -19,7 +19,7 @@ MANUAL = QoS(liveliness=Liveliness.MANUAL_BY_TOPIC)
 @pytest.fixture(autouse=True)
 def _compares_qos(monkeypatch):
     """Let QoS keep endpoints apart, whatever the middleware of this machine is."""
-    monkeypatch.setattr(matching, "compares_qos", lambda: True)
+    monkeypatch.setattr(conflicts, "compares_qos", lambda: True)
 
 
 def endpoint(kind, qos=DEFAULT, type_name="std_msgs/msg/String", type_hash="RIHS01_a"):
@@ -61,7 +61,7 @@ def test_all_policies_are_named():
 
 
 def test_a_middleware_that_ignores_qos_connects_all(monkeypatch):
-    monkeypatch.setattr(matching, "compares_qos", lambda: False)
+    monkeypatch.setattr(conflicts, "compares_qos", lambda: False)
     assert found(BEST_EFFORT, LATCHED) == []
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli.discovery import hidden_node_name, wait_until_discovered
 from ros2cli.node import NODE_NAME_PREFIX
-from turtlewire.wire.lingering import leaving_at_once
+from turtlewire.wire.environment import leaving_at_once
 
 if TYPE_CHECKING:
     from rclpy.node import Node

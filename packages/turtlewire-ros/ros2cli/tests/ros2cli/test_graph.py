@@ -16,7 +16,7 @@ from ros2param.parameters import _serving
 from turtlewire import msg
 from turtlewire.wire import open_context
 from turtlewire.wire.base import ServiceTypes, TypeId
-from turtlewire.wire.lingering import lingers
+from turtlewire.wire.environment import lingers
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
 HASH = "RIHS01_" + "0" * 64

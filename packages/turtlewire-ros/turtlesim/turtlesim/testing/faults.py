@@ -26,8 +26,7 @@ from tf2_ros import TransformBroadcaster
 from turtlewire import msg
 
 if TYPE_CHECKING:
-    from turtlewire.wire.local.bus import Bus, LocalSender
-    from turtlewire.wire.local.endpoint import Message
+    from turtlewire.wire.local.bus import Bus, LocalSender, Message
 
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _STATIC = "/tf_static"

@@ -10,23 +10,17 @@ module             contents
 `shapes`           PolygonStamped, PointStamped, GridCells, Range, CameraInfo
 `measurement`      Temperature, RelativeHumidity, FluidPressure, Illuminance;
                    TwistStamped, AccelStamped, WrenchStamped
-`points`           the common base of point clouds and scans
+`points`           the common base of point clouds and scans; colours from values
 `point_cloud`      PointCloud2 and PointCloud
-`coloring`         colours from values
 `laser_scan`       LaserScan
 `occupancy_grid`   OccupancyGrid and OccupancyGridUpdate
 `marker`           Marker and MarkerArray
-`marker_shapes`    one marker
-`interactive_markers`  InteractiveMarkerUpdate
-`interactive_marker`  one interactive marker, its controls and menu
-`marker_texture`   the image on the triangles of a marker
-`image`            Image and CompressedImage
-`camera`           images with the scene drawn over them
-`camera_model`     the intrinsics of a CameraInfo
+`marker_shapes`    one marker, and the image on its triangles
+`interactive_markers`InteractiveMarkerUpdate; a marker, its controls and menu
+`image`            Image and CompressedImage; pixels as RGBA
+`camera`           images with the scene drawn over them; the intrinsics of a CameraInfo
 `depth_cloud`      depth images as points, with colours of another image
-`encodings`        pixels as RGBA
-`robot_model`      the links of a URDF
-`inertia`          mass and inertia of a link as bodies
+`robot_model`      the links of a URDF; their mass and inertia as bodies
 `effort`           the efforts of a JointState at the joints of a URDF
 =================  =============================================================================
 """

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from turtlewire_view.displays.camera_model import CAMERA_INFO, info_topic, intrinsics_of
+from turtlewire_view.displays.camera import CAMERA_INFO, info_topic, intrinsics_of
 from turtlewire_view.displays.content import Output, Status, UnusableMessageError, stamp_ns_of
-from turtlewire_view.displays.encodings import pixels_of, rgba_of
+from turtlewire_view.displays.image import pixels_of, rgba_of
 from turtlewire_view.displays.numeric import LARGEST
 from turtlewire_view.displays.options import DisplayOptions
 from turtlewire_view.displays.point_cloud import PointCloudDisplay

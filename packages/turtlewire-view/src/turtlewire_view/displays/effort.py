@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from turtlewire.urdf import Robot, UrdfError
-from turtlewire_view.displays.coloring import rainbow
 from turtlewire_view.displays.content import (
     Content,
     Display,
@@ -18,6 +17,7 @@ from turtlewire_view.displays.content import (
     Status,
     UnusableMessageError,
 )
+from turtlewire_view.displays.points import rainbow
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

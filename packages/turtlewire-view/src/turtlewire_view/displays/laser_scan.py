@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from turtlewire_view.displays.coloring import by_axis, by_value, flat
 from turtlewire_view.displays.content import (
     Content,
     Placed,
@@ -15,7 +14,7 @@ from turtlewire_view.displays.content import (
     stamp_ns_of,
 )
 from turtlewire_view.displays.numeric import LARGEST, spread
-from turtlewire_view.displays.points import PointsDisplay, moved
+from turtlewire_view.displays.points import PointsDisplay, by_axis, by_value, flat, moved
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

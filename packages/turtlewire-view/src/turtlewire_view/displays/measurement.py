@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from turtlewire_view.displays.coloring import by_value
 from turtlewire_view.displays.content import (
     Content,
     Display,
@@ -23,6 +22,7 @@ from turtlewire_view.displays.content import (
     stamp_ns_of,
 )
 from turtlewire_view.displays.numeric import LARGEST
+from turtlewire_view.displays.points import by_value
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -50,7 +50,7 @@ class MeasurementDisplay(Display):
     """The number of a message, as a ball with a colour, and as text.
 
     Options: the colour is one between ``min`` and ``max``, unless ``usual_bounds``, which takes
-    RViz's bounds of the quantity; see :mod:`turtlewire_view.displays.coloring` for the others.
+    RViz's bounds of the quantity; see :mod:`turtlewire_view.displays.points` for the others.
     """
 
     kind = "measurement"

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from turtlewire_view.displays.coloring import by_axis, by_value, flat
 from turtlewire_view.displays.content import (
     Content,
     Placed,
@@ -15,7 +14,7 @@ from turtlewire_view.displays.content import (
     stamp_ns_of,
 )
 from turtlewire_view.displays.numeric import anchored, picked_rows, rows_within, spread
-from turtlewire_view.displays.points import PointsDisplay, moved
+from turtlewire_view.displays.points import PointsDisplay, by_axis, by_value, flat, moved
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
@@ -30,7 +29,7 @@ class PointCloudDisplay(PointsDisplay):
 
     Options: ``color`` (``auto``, ``rgb``, ``rgbf32``, ``intensity``, ``axis``, ``flat``);
     ``channel`` names the field of ``intensity``; the options of
-    :mod:`turtlewire_view.displays.coloring`; ``axis_in_fixed_frame``, or else the axis is one of
+    :mod:`turtlewire_view.displays.points`; ``axis_in_fixed_frame``, or else the axis is one of
     the message's frame; ``flat_color``. ``auto`` takes colours if there are some, then the field
     ``intensity``, then the axis.
     """

@@ -16,13 +16,10 @@ module              contents
 `offers`            the topics and services that clients may use, as the graph has them
 `channel`           one topic: its subscriptions, and the clients that receive it
 `caller`            calls of services on the wire, for asyncio
-`parameters`        the parameters of all nodes: read, set, followed
-`parameter_values`  a parameter's value, as ROS 2 sends it and as JSON
+`parameters`        the parameters of all nodes: read, set, followed; their values as JSON
 `connections`       which node publishes, subscribes and serves what; changes of the graph
 `assets`            files of packages
-`origins`           which web pages may connect
-`protocol`          the frames of the protocol
-`fields`            fields of clients' requests, checked
+`protocol`          the frames of the protocol; fields of clients' requests, checked
 `schemas`           definitions of types, requests and responses
 ==================  ===================================================================
 """

@@ -5,13 +5,13 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import errno
+import re
 import time
 from typing import TYPE_CHECKING, Any, cast
 
 from turtlewire.terminal.printable import printable
 from turtlewire.web import origin as web_origin
 from turtlewire.web.server_thread import ServerThread, listening_socket, until_one_ends
-from turtlewire_view.foxglove import origins
 from turtlewire_view.foxglove.assets import share_folder
 from turtlewire_view.foxglove.bridge import Bridge
 from turtlewire_view.foxglove.outbox import Outbox
@@ -20,7 +20,7 @@ from turtlewire_view.foxglove.session import FoxgloveSession
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from websockets.asyncio.server import ServerConnection
     from websockets.datastructures import Headers
@@ -31,7 +31,35 @@ if TYPE_CHECKING:
     from turtlewire_view.foxglove.bridge import Log
     from turtlewire_view.foxglove.options import BridgeOptions
 
-__all__ = ["FoxgloveServer"]
+__all__ = [
+    "FOXGLOVE",
+    "FoxgloveServer",
+    "refusal",
+]
+
+#: The pages of the Foxglove app.
+FOXGLOVE = ("https://app.foxglove.dev", "https://studio.foxglove.dev")
+_LOOPBACK = re.compile(r"https?://(?:localhost|127\.0\.0\.1|\[::1\])(?::\d+)?")
+
+
+def refusal(origins: list[str], allowed: Iterable[str]) -> str | None:
+    """Return why a connection is refused, as one sentence, or None if it is allowed.
+
+    Args:
+        origins: All ``Origin`` headers. Programs other than browsers send none.
+        allowed: Origins that may connect, besides Foxglove's and this machine's. ``*``
+            stands for all.
+    """
+    known = {*FOXGLOVE, *(origin.lower().rstrip("/") for origin in allowed)}
+    if not origins or "*" in known:
+        return None
+    if len(origins) == 1:
+        origin = origins[0].lower()
+        if origin.rstrip("/") in known or _LOOPBACK.fullmatch(origin):
+            return None
+    shown = ", ".join(repr(origin) for origin in origins)
+    return f"pages of {shown} may not connect"
+
 
 #: Longest message that a client may send [bytes].
 _LARGEST_MESSAGE = 64 << 20
@@ -131,7 +159,7 @@ class FoxgloveServer:
         """
         pages, hosts = headers.get_all("Origin"), headers.get_all("Host")
         allowed = self._options.origins
-        reason = origins.refusal(pages, allowed)
+        reason = refusal(pages, allowed)
         if reason is not None:
             key = ",".join(pages)
             self._warn_of(key, reason, f"--origin {key} (parameter origins) lets them")

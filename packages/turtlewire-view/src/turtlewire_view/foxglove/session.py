@@ -10,8 +10,17 @@ from turtlewire.errors import WireError
 from turtlewire_view.foxglove import protocol
 from turtlewire_view.foxglove.assets import AssetError, read_asset
 from turtlewire_view.foxglove.caller import ServiceCallError
-from turtlewire_view.foxglove.fields import integer, items, names, required_text, text_or_none
-from turtlewire_view.foxglove.protocol import ERROR, WARNING, ClientMessage, ProtocolError
+from turtlewire_view.foxglove.protocol import (
+    ERROR,
+    WARNING,
+    ClientMessage,
+    ProtocolError,
+    integer,
+    items,
+    names,
+    required_text,
+    text_or_none,
+)
 from turtlewire_view.foxglove.publishing import Publishing
 
 if TYPE_CHECKING:

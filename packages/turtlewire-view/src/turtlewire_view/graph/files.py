@@ -10,8 +10,7 @@ from turtlewire.tf import svg
 from turtlewire.wire.qos import INFINITE_NS, History
 from turtlewire_view.graph.diagram import make_diagram
 from turtlewire_view.graph.layout import TEXT_SIZE, make_layout
-from turtlewire_view.graph.picture import UNKNOWN
-from turtlewire_view.graph.selection import select
+from turtlewire_view.graph.picture import UNKNOWN, select
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,8 +18,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.qos import QoS
     from turtlewire_view.graph.diagram import Arrow
     from turtlewire_view.graph.layout import Layout
-    from turtlewire_view.graph.picture import Picture
-    from turtlewire_view.graph.selection import Selection
+    from turtlewire_view.graph.picture import Picture, Selection
 
 __all__ = ["as_data", "as_dot", "as_json", "as_svg", "words_of", "writer_for"]
 

@@ -15,8 +15,7 @@ from turtlewire_view.graph.diagram import make_diagram
 from turtlewire_view.graph.files import as_data
 from turtlewire_view.graph.layout import make_layout
 from turtlewire_view.graph.measuring import Measuring
-from turtlewire_view.graph.picture import read_graph
-from turtlewire_view.graph.selection import Selection, select
+from turtlewire_view.graph.picture import Selection, read_graph, select
 from turtlewire_view.graph.session import GraphSession
 
 if TYPE_CHECKING:

@@ -6,15 +6,13 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.tf.drawing import BROWSER_FONTS, text_width
-from turtlewire_view.graph.columns import BOX_HEIGHT, GAP, find_places
-from turtlewire_view.graph.layers import make_layers
+from turtlewire_view.graph.layers import BOX_HEIGHT, GAP, find_places, make_layers
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from turtlewire_view.graph.columns import Place
     from turtlewire_view.graph.diagram import Arrow, Box, Diagram
-    from turtlewire_view.graph.layers import Layers
+    from turtlewire_view.graph.layers import Layers, Place
 
 __all__ = ["TEXT_SIZE", "Layout", "PlacedBox", "Way", "make_layout"]
 

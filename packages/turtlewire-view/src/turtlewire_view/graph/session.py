@@ -3,17 +3,39 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from turtlewire.web import CommandSession
-from turtlewire.web.commands import CommandError
-from turtlewire_view.graph import page_commands
-from turtlewire_view.graph.selection import TOPICS, Selection
+from turtlewire.web.commands import CommandError, CommandReader
+from turtlewire_view.graph.picture import TOPICS, Selection
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["GraphHost", "GraphSession"]
+__all__ = [
+    "READER",
+    "GraphHost",
+    "GraphSession",
+    "MeasureTopics",
+    "ShowGraph",
+]
+
+
+class ShowGraph(NamedTuple):
+    """Show a part of the graph; see :class:`turtlewire_view.graph.picture.Selection`."""
+
+    topics: str
+    debug: bool
+    words: str
+
+
+class MeasureTopics(NamedTuple):
+    """Send the rates and values of these topics, and of no others."""
+
+    topics: list[Any]
+
+
+READER = CommandReader({"show": ShowGraph, "measure": MeasureTopics})
 
 #: Each topic that is measured is a subscription, which the robot's network has to serve.
 _MOST_TOPICS = 16
@@ -42,14 +64,14 @@ class GraphSession(CommandSession):
     """
 
     def __init__(self, host: GraphHost, name: str) -> None:
-        super().__init__(page_commands.READER)
+        super().__init__(READER)
         self._host = host
         self.selection = host.selection
         self.topics: frozenset[str] = frozenset()
         self._shown = self._sent = self._readings = self._sent_readings = ""
         self._actions: dict[type, Callable[[Any], None]] = {
-            page_commands.ShowGraph: self._select,
-            page_commands.MeasureTopics: self._measure,
+            ShowGraph: self._select,
+            MeasureTopics: self._measure,
         }
         self.answer({"type": "hello", "source": name, "selection": self.selection._asdict()})
 
@@ -83,12 +105,12 @@ class GraphSession(CommandSession):
         """The page was closed."""
         self._host.forget(self)
 
-    def _select(self, command: page_commands.ShowGraph) -> None:
+    def _select(self, command: ShowGraph) -> None:
         if command.topics not in TOPICS:
             raise CommandError(f"topics must be one of {', '.join(TOPICS)}, not {command.topics!r}")
         self.selection = Selection(*command)
 
-    def _measure(self, command: page_commands.MeasureTopics) -> None:
+    def _measure(self, command: MeasureTopics) -> None:
         if not all(isinstance(each, str) and each.startswith("/") for each in command.topics):
             raise CommandError("topics must be a list of topic names")
         if len(command.topics) > _MOST_TOPICS:

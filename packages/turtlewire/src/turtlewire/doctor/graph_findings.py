@@ -10,8 +10,8 @@ from turtlewire.doctor.fast_dds_findings import fast_dds_findings
 from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.doctor.network import named_domains, other_domains
 from turtlewire.doctor.setup_findings import looks_for_others, only_this_host
+from turtlewire.wire.conflicts import obstacles
 from turtlewire.wire.environment import discovery, domain_id
-from turtlewire.wire.matching import obstacles
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.services import ONE_MIDDLEWARE, advice
 

@@ -8,15 +8,18 @@ from typing import TYPE_CHECKING
 from turtlewire.distro import Distro, current_distro
 from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.doctor.network import multicast_works
-from turtlewire.wire.environment import NO_CYCLONE, Range, discovery, is_installed
-from turtlewire.wire.libddsc import find_libddsc
-from turtlewire.wire.security import (
+from turtlewire.wire.environment import (
     IN_THE_CLEAR,
+    NO_CYCLONE,
     REMEDY,
+    Range,
     asks_for_security,
+    discovery,
     enforces_security,
+    is_installed,
     misspelt_enable,
 )
+from turtlewire.wire.libddsc import find_libddsc
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

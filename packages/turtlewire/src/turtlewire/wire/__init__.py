@@ -9,14 +9,11 @@ module            contents
 `records`         records of names, stamps and counts
 `qos`             `QoS`, with the numbers of ROS 2's rmw
 `names`           rules and expansion of ROS names, and their spelling on the wire
-`environment`     the environment variables of discovery
+`environment`     the environment variables of discovery and SROS 2; whether the shutdown waits
 `libddsc`         finds the library of Cyclone DDS, and its binary interface
-`security`        the environment variables of SROS 2
-`lingering`       decides if the shutdown waits for acknowledgements
 `loopback`        binds sockets to the loopback interface
 `graph`           the common part of all graphs; ``ros_discovery_info``
-`matching`        why a publisher and a subscription are not connected
-`conflicts`       two types on one topic or service, two nodes with one name
+`conflicts`       why endpoints are not connected; two types on one topic, two nodes of one name
 `encapsulation`   the four bytes in front of every serialized message
 `events`          counters of endpoints' events
 `checked_node`    what the nodes of all middlewares refuse
@@ -40,7 +37,7 @@ from typing import TYPE_CHECKING
 from turtlewire.errors import WireError
 
 from . import environment
-from .security import check_security
+from .environment import check_security
 
 if TYPE_CHECKING:
     from .base import Context

@@ -1,13 +1,14 @@
-"""The environment variables of discovery, read as in ROS 2."""
+"""The environment variables of discovery, read as in ROS 2, and of SROS 2; the end of a process."""
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import sys
 from enum import Enum
 from importlib.util import find_spec
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.errors import WireError
 from turtlewire.platforms import in_browser
@@ -15,18 +16,29 @@ from turtlewire.platforms import in_browser
 from .libddsc import find_libddsc
 from .report import warn_once
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
 __all__ = [
+    "IN_THE_CLEAR",
     "MAX_DOMAIN_ID",
     "MIDDLEWARES",
     "NO_CYCLONE",
+    "REMEDY",
     "Discovery",
     "Range",
+    "asks_for_security",
+    "check_security",
     "compares_qos",
     "discovery",
     "domain_id",
+    "enforces_security",
     "is_installed",
+    "leaving_at_once",
+    "lingers",
     "middleware_library",
     "middleware_name",
+    "misspelt_enable",
 ]
 
 #: What ``RMW_IMPLEMENTATION`` may name: Cyclone DDS (the default), Zenoh, and ``local``, which
@@ -181,3 +193,65 @@ def _range(text: str) -> Range:
             "(valid: SUBNET, LOCALHOST, OFF, SYSTEM_DEFAULT)",
         )
         return Range.LOCALHOST
+
+
+_leaving = 0
+
+
+@contextlib.contextmanager
+def leaving_at_once() -> Iterator[None]:
+    """Make the process leave domains that it joins within this context without waiting."""
+    global _leaving  # noqa: PLW0603  domains belong to the process
+    _leaving += 1
+    try:
+        yield
+    finally:
+        _leaving -= 1
+
+
+def lingers() -> bool:
+    """Return True if a domain that is joined now is left only after waiting."""
+    return not _leaving
+
+
+_ENABLE, _STRATEGY = "ROS_SECURITY_ENABLE", "ROS_SECURITY_STRATEGY"
+IN_THE_CLEAR = (
+    f"{_ENABLE} is true, but turtlewire does not support SROS 2: messages are sent unencrypted and "
+    "unauthenticated"
+)
+_REFUSED = (
+    f"{_ENABLE} is true and {_STRATEGY} is Enforce, but turtlewire does not support SROS 2, so it "
+    "does not start"
+)
+REMEDY = (
+    "For encryption, use Zenoh with TLS (docs/how-to/secure_networks.md). With it, or to run "
+    f"without security, unset {_ENABLE}."
+)
+
+
+def asks_for_security(environment: Mapping[str, str]) -> bool:
+    """Return whether SROS 2 is switched on, by rcl's rule: the text is exactly ``true``."""
+    return environment.get(_ENABLE) == "true"
+
+
+def enforces_security(environment: Mapping[str, str]) -> bool:
+    """Return whether a process must not start without SROS 2; rcl compares with ``Enforce``."""
+    return asks_for_security(environment) and environment.get(_STRATEGY) == "Enforce"
+
+
+def misspelt_enable(environment: Mapping[str, str]) -> str:
+    """Return a value of ROS_SECURITY_ENABLE that reads as on but is off; empty if it is not so."""
+    value = environment.get(_ENABLE, "")
+    return value if value != "true" and value.strip().lower() in {"true", "1", "on", "yes"} else ""
+
+
+def check_security() -> None:
+    """Warn once if the environment asks for SROS 2.
+
+    Raises:
+        WireError: The environment demands it.
+    """
+    if enforces_security(os.environ):
+        raise WireError(_REFUSED).with_hint(REMEDY)
+    if asks_for_security(os.environ):
+        warn_once(_ENABLE, f"{IN_THE_CLEAR}. {REMEDY}")

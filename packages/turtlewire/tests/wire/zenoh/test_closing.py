@@ -16,8 +16,7 @@ from turtlewire.tf.buffer import CORE
 from turtlewire.wire import open_context
 from turtlewire.wire.base import RequestId, ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
-from turtlewire.wire.zenoh.callback_threads import CallbackThreads
-from turtlewire.wire.zenoh.calls import Calls
+from turtlewire.wire.zenoh.callback_threads import CallbackThreads, Calls
 
 REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)

@@ -68,7 +68,7 @@ def test_a_router_that_starts_during_the_wait(port, monkeypatch, capfd):
     monkeypatch.setenv("ZENOH_ROUTER_CHECK_ATTEMPTS", "0")
     warned = threading.Event()
     monkeypatch.setattr(
-        "turtlewire.wire.zenoh.router_check.warn", lambda text: warned.set() or report.warn(text)
+        "turtlewire.wire.zenoh.router.warn", lambda text: warned.set() or report.warn(text)
     )
     opening = threading.Thread(target=open_and_close)
     opening.start()

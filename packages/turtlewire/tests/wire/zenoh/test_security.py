@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import pytest
 from tests.places import HOW_TO, LEARNING, PATH
 
-from turtlewire.wire.zenoh.router_log import explain
+from turtlewire.wire.zenoh.router import explain
 
 from ..hosts import DEMO, PEERS, delete_namespaces, ip, namespace
 

@@ -6,8 +6,7 @@ import os
 import re
 
 from turtlewire.errors import WireError
-from turtlewire.wire.environment import Discovery, Range
-from turtlewire.wire.lingering import lingers
+from turtlewire.wire.environment import Discovery, Range, lingers
 from turtlewire.wire.report import warn_once
 
 from . import library as dds

@@ -16,8 +16,8 @@ from struct import Struct
 from typing import TYPE_CHECKING
 
 from turtlewire.wire.base import RequestId
+from turtlewire.wire.environment import asks_for_security
 from turtlewire.wire.report import warn_once
-from turtlewire.wire.security import asks_for_security
 
 from . import library as dds
 from .native import NATIVE

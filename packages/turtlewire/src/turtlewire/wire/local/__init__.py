@@ -6,9 +6,7 @@ before it returns, so a later ``take`` always finds them: tests need not wait.
 ===========================  ==========================================================
 module                       contents
 ===========================  ==========================================================
-`bus`                        nodes and endpoints of a domain, and which endpoints match
-`context`                    a participant and its graph
-`node`                       a node, and the state that it shares with its endpoints
-`endpoint`                   publishers, subscriptions, and their common base
+`bus`                        endpoints, nodes and contexts of a domain; which endpoints match
+`context`                    a participant and its graph; nodes, publishers, subscriptions
 ===========================  ==========================================================
 """

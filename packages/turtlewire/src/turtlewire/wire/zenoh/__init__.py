@@ -12,24 +12,20 @@ rare and are queued on Zenoh's receiving threads. The context's reader thread ca
 ===========================  ==================================================================
 module                       contents
 ===========================  ==================================================================
-`qos_text`                   a QoS in the notation of tokens
-`token`                      `Token`: a node or an endpoint in the graph, its key and its gid
+`tokens`                     `Token`: a node or an endpoint in the graph, with its QoS
 `attachment`                 the attachment of a message, 33 bytes
 `configuration`              the configuration of sessions and routers, and ``ZENOH_*`` variables
 `library`                    the import of ``eclipse-zenoh``
-`context`                    a participant
-`calls`                      counts the calls into Zenoh's library
-`callback_threads`           the threads of callbacks
+`context`                    a participant and its nodes
+`callback_threads`           the threads of callbacks; counts the calls into Zenoh's library
 `context_state`              the state that a context shares with nodes and endpoints
 `graph`                      nodes and endpoints, from the tokens
-`node`                       nodes
 `endpoint`                   the common base of all endpoints
-`publisher`, `subscription`  the ends of a topic
+`publisher`                  publishers
 `shared_memory`              the pool for large messages
-`inlet`                      subscriptions whose messages go to a native sink
+`inlet`                      subscriptions, also those whose messages go to a native sink
 `services`                   clients and servers
-`router`, `router_log`       ``rmw_zenohd``, and its messages about rejected peers
-`router_check`               the wait for a router that a variable asks for
+`router`                     ``rmw_zenohd``, its messages about rejected peers, the wait for it
 `diagnosis`                  explains why a session cannot be opened
 ===========================  ==================================================================
 """

@@ -11,8 +11,7 @@ import zenoh
 
 from turtlewire.errors import WireError
 
-from .callback_threads import CallbackThreads
-from .calls import Calls
+from .callback_threads import CallbackThreads, Calls
 from .library import reason_of
 
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
     from .graph import ZenohGraph
     from .shared_memory import SharedMemory
-    from .token import Token
+    from .tokens import Token
 
 __all__ = ["Owner", "ZenohContextState"]
 

@@ -12,7 +12,7 @@ from turtlewire.wire import names
 from turtlewire.wire.base import Entity, EventKind, EventStatus
 from turtlewire.wire.events import StatusEvent
 
-from .qos_text import adapted, format_qos
+from .tokens import adapted, format_qos
 
 if TYPE_CHECKING:
     from typing import Protocol
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.qos import QoS
 
     from .context_state import Owner, ZenohContextState
-    from .token import Token
+    from .tokens import Token
 
     class Declared(Protocol):
         """An object that Zenoh returns for a publisher, a subscriber and the like."""

@@ -14,8 +14,7 @@ from turtlewire.wire.graph import GraphView
 from turtlewire.wire.qos import QoS
 from turtlewire.wire.report import warn_once
 
-from .qos_text import parse_qos
-from .token import CLIENT, NODE, PUBLISHER, SERVICE, SUBSCRIPTION, Token, graph_key
+from .tokens import CLIENT, NODE, PUBLISHER, SERVICE, SUBSCRIPTION, Token, graph_key, parse_qos
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -17,7 +17,7 @@ from turtlewire.wire.qos import Durability, History, Reliability
 from .attachment import pack_attachment
 from .endpoint import ZenohEndpoint
 from .library import reason_of
-from .token import PUBLISHER
+from .tokens import PUBLISHER
 
 if TYPE_CHECKING:
     from typing import Any

@@ -20,7 +20,7 @@ from turtlewire.wire.report import warn_once
 from .attachment import Attachment, pack_attachment
 from .endpoint import ZenohEndpoint
 from .library import reason_of
-from .token import CLIENT, SERVICE
+from .tokens import CLIENT, SERVICE
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.queue_wait_set import Watcher
 
     from .context_state import Owner, ZenohContextState
-    from .token import Token
+    from .tokens import Token
 
 __all__ = ["ZenohClient", "ZenohService"]
 
