@@ -761,7 +761,7 @@ class TestChoiceOfCore:
     def test_wrong_request_is_said_once_by_all_who_have_compiled_parts(self) -> None:
         """The wire, the writer of joints' frames and the buffer, whichever comes first."""
         pytest.importorskip("cyclonedds", reason="Cyclone is not installed")
-        modules = ["wire.cyclone.native", "urdf.frames_writer", "tf.buffer"]
+        modules = ["wire.cyclone.native", "urdf.joint_messages", "tf.buffer"]
         for first in range(3):
             names = modules[first:] + modules[:first]
             code = "".join(f"import turtlewire.{name}\n" for name in names)
