@@ -374,7 +374,7 @@ a recorder continues when the disk is full
 `ros2 bag reindex` leaves a file that was cut off as it is
   bag/test_repair.py test_a_cut_bag_is_made_whole
 messages of an older definition are played and read as they were recorded, and subscriptions cannot decode them
-  bag/test_other_definitions.py test_each_type_of_each_release
+  bag/test_encodings.py test_each_type_of_each_release
   rosbag2_py/test_converting.py test_scripts_read_older_messages_as_those_that_are_installed
 `ros2 bag convert` writes topics of any encoding as if they were in CDR, and leaves an empty bag after an error
   rosbag2_py/test_converting.py test_a_topic_that_cannot_be_converted_is_named test_a_refused_conversion_leaves_no_bag
@@ -453,9 +453,9 @@ joint_state_publisher_gui opens a Qt window
 pages of any origin connect
   foxglove/test_hostile.py test_other_pages_are_refused_with_one_line
 `tls`, `certfile` and `keyfile` make it a wss server
-  foxglove/test_foxglove_bridge.py test_wrong_parameters_are_refused
+  foxglove/test_command.py test_wrong_parameters_are_refused
 `num_threads`, `min_qos_depth`, `max_qos_depth`, `best_effort_qos_topic_whitelist`, `use_compression` and others tune it
-  foxglove/test_foxglove_bridge.py test_options_without_effect_are_reported
+  foxglove/test_command.py test_options_without_effect_are_reported
 an integer for a floating-point parameter is rejected
   foxglove/test_requests.py test_parameters_are_set_and_keep_their_type
 `rviz2` opens a window
@@ -473,9 +473,9 @@ RViz's interactive markers may start programs, and hold shapes of any frame
   view/test_interactive_pictures.py test_a_menu_opens_by_the_right_button
   view/test_interactive_markers.py test_a_wrong_control_is_named test_too_many_controls_and_menu_entries_are_cut
 RViz uses the transforms at both ends of a scan and interpolates the beams
-  view/test_points_in_time.py test_each_beam_is_drawn_from_where_the_scanner_was
+  view/test_feed_order.py test_each_beam_is_drawn_from_where_the_scanner_was
 RViz draws all points of the `Decay Time`
-  view/test_points_in_time.py test_points_that_stay_share_the_budget
+  view/test_feed_order.py test_points_that_stay_share_the_budget
 RViz's RobotModel reads a topic or a file
   view/test_display_panel.py test_a_robot_of_a_parameter_and_its_links
 RViz uses the default for an invalid value in a `.rviz` file
@@ -502,7 +502,7 @@ roslibpy (PyPI, 2.1)
 rosbags, mcap, mcap-ros2-support (PyPI)
   bag/test_writer.py test_rosbags_reads_it test_mcap_reads_it
   bag/test_writer.py test_other_libraries_decode_with_the_definitions_in_it
-  bag/test_other_writers.py test_rosbags test_mcap
+  bag/test_other_tools.py test_rosbags test_mcap
 evo (PyPI)
   trajectory/test_metrics.py test_the_table_is_evos
   trajectory/test_metrics.py test_evo_samples_our_buffer

@@ -1,9 +1,17 @@
-"""The swarm: each turtle follows the one before it, all of them in one process."""
+"""The swarm: each turtle follows the one before it, all of them in one process.
+
+Our own tutorial package: two turtles appear, one follows.
+
+And the static broadcaster that the tutorial's setup.py names.
+"""
 
 from __future__ import annotations
 
 import itertools
+import os
 import signal
+import subprocess
+import sys
 import threading
 
 import pytest
@@ -82,3 +90,98 @@ def test_the_swarm_joins_a_simulator_that_runs_already(run, workspace, turtles):
     swarm.signal_group(signal.SIGINT)
     assert swarm.wait() == 0
     assert "Traceback" not in swarm.text
+
+
+LONG_NS = 60_000_000_000
+
+
+def test_two_turtles_appear_and_one_follows(run, workspace, turtles):
+    launch = run(
+        ROS2,
+        "launch",
+        "learning_tf2_py",
+        "turtle_tf2_demo.launch.py",
+        environment=workspace(PACKAGE),
+    )
+    launch.wait_for("Successfully spawned turtle2")
+    turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
+    buffer = Buffer()
+    with TransformListener(buffer, turtles.node, context=turtles.context):
+        assert buffer.lookup_transform("turtle2", "turtle1", timeout_ns=LONG_NS).stamp_ns > 0
+
+    launch.signal_group(signal.SIGINT)
+    assert launch.wait() == 0
+    assert launch.survivors() == []
+    assert "Traceback" not in launch.text
+    assert launch.text.count("process has finished cleanly") == 4
+
+
+def test_a_turtle_that_is_there_is_not_spawned_again(run, workspace, turtles):
+    environment = workspace(PACKAGE)
+    field = run(ROS2, "run", "turtlesim", "turtlesim_node", environment=environment)
+    field.wait_for("Spawning turtle .turtle1")
+    first = run(ROS2, "run", "learning_tf2_py", "turtle_tf2_listener", environment=environment)
+    field.wait_for("Spawning turtle .turtle2")
+    turtles.wait_for(lambda: "turtle2" in turtles.poses)
+    first.signal_group(signal.SIGINT)
+    first.wait()
+    second = run(ROS2, "run", "learning_tf2_py", "turtle_tf2_listener", environment=environment)
+    second.wait_for("Could not retrieve transform", count=2)
+    field.signal_group(signal.SIGINT)
+    field.wait()
+    assert "already exists" not in field.text
+
+
+def test_the_static_broadcaster_is_heard_by_late_joiners(run, workspace, turtles):
+    arguments = ["thing", "1", "2", "0.5", "0", "0", "1.5707963267948966"]
+    program = run(
+        ROS2,
+        "run",
+        "learning_tf2_py",
+        "static_turtle_tf2_broadcaster",
+        *arguments,
+        environment=workspace(PACKAGE),
+    )
+    buffer = Buffer()
+    with TransformListener(buffer, turtles.node, context=turtles.context):
+        found = buffer.lookup_transform("world", "thing", timeout_ns=LONG_NS)
+    assert found.translation == (1.0, 2.0, 0.5)
+    assert found.rotation == pytest.approx((0.0, 0.0, 0.5**0.5, 0.5**0.5))
+    program.signal_group(signal.SIGINT)
+    program.wait()
+    assert "Traceback" not in program.text
+
+
+@pytest.mark.parametrize(
+    "arguments", [[], ["thing", "1"], ["thing", *"12345", "six"], ["world", *"123456"]]
+)
+def test_the_static_broadcaster_explains_itself(run, workspace, arguments):
+    program = run(
+        ROS2,
+        "run",
+        "learning_tf2_py",
+        "static_turtle_tf2_broadcaster",
+        *arguments,
+        environment=workspace(PACKAGE),
+    )
+    assert program.wait() != 0
+    assert (
+        "usage: ros2 run learning_tf2_py static_turtle_tf2_broadcaster NAME X Y Z ROLL PITCH YAW"
+        in program.text
+    )
+    assert "Traceback" not in program.text
+
+
+def test_the_package_s_own_tests():
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test"]
+    path = os.pathsep.join(part for part in (str(PACKAGE), os.environ.get("PYTHONPATH")) if part)
+    done = subprocess.run(
+        command,
+        cwd=PACKAGE,
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "5 passed" in done.stdout

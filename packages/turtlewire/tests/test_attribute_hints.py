@@ -1,16 +1,25 @@
-"""Names that people know from other libraries: the AttributeError says what to use here."""
+"""Names that people know from other libraries: the AttributeError says what to use here.
+
+Errors of the engine travel between processes with their hints.
+"""
 
 from __future__ import annotations
 
 import builtins
 import importlib.metadata
+import pickle
 import re
+import sys
+import traceback
 
 import pytest
+from tests.places import GOLDEN
 
 import turtlewire
+from turtlewire import Buffer
 from turtlewire.bag import Bag, BagMessage, BagWriter
 from turtlewire.call_errors import hint_at
+from turtlewire.errors import BagError, LookupException, WireError
 from turtlewire.net.connection import Connection
 from turtlewire.trajectory import Trajectory
 from turtlewire.urdf import Robot
@@ -86,3 +95,51 @@ def test_version() -> None:
 def test_other_names_are_errors() -> None:
     with pytest.raises(AttributeError, match="'turtlewire' has no attribute 'Bufer'"):
         _ = turtlewire.Bufer  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize(
+    "error", [LookupException("no frame"), WireError("no network"), BagError("no bag")]
+)
+def test_a_pickled_error_keeps_the_hint_that_it_was_given(error):
+    copy = pickle.loads(pickle.dumps(error.with_hint("Start a broadcaster.")))
+    assert (type(copy), str(copy)) == (type(error), str(error))
+    assert copy.hint == "Start a broadcaster."
+
+
+@pytest.mark.parametrize(
+    ("text", "hint", "line"),
+    [
+        ("no network", "", "no network"),
+        ("no network", "Plug it in.", "no network. Plug it in."),
+        ("no network?", "Plug\nit in.", "no network? Plug it in."),
+    ],
+)
+def test_text_and_hint_in_one_line(text, hint, line):
+    assert WireError(text).with_hint(hint).in_one_line() == line
+
+
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="exceptions have no notes")
+def test_a_traceback_shows_the_hint():
+    path = GOLDEN / "bag" / "d_mcap"
+    for call, hint in (
+        (lambda: Buffer.from_bag(path, topics=["/tf", "/tff"]), "Topics of type tf2_msgs"),
+        (
+            lambda: Trajectory.from_bag(path, "/odm"),
+            "Did you mean: /odom. Topics with poses: /goal",
+        ),
+    ):
+        with pytest.raises(BagError) as caught:
+            call()
+        assert hint in caught.value.hint
+        assert hint not in str(caught.value)
+        assert f"\n{hint}" in "".join(traceback.format_exception(caught.value))
+
+
+def test_a_pickled_error_keeps_the_hint_that_only_the_buffer_could_give():
+    buffer = Buffer()
+    buffer.set_transform("world", "robot", 1, (0, 0, 0), (0, 0, 0, 1))
+    with pytest.raises(LookupException) as caught:
+        buffer.lookup_transform("world", "robto")
+    copy = pickle.loads(pickle.dumps(caught.value))
+    assert "robot" in caught.value.hint
+    assert copy.hint == caught.value.hint

@@ -1,9 +1,13 @@
-"""The lesson in Chromium: Python in the tab, without a network once it is loaded."""
+"""The lesson in Chromium: Python in the tab, without a network once it is loaded.
+
+The lesson in Firefox: each lesson is solved by its solution, served and opened as a file.
+"""
 
 from __future__ import annotations
 
 import json
 import re
+import shutil
 
 import pytest
 from tests.places import LESSONS
@@ -12,6 +16,7 @@ from tests.static_host import LONG_MS, Host
 from turtle_lesson.lesson import load_lesson
 
 from .conftest import wait_until_loaded
+from .firefox import Firefox
 from .wrong_answers import WRONG_ANSWERS
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
@@ -335,3 +340,29 @@ def test_the_frames_are_drawn_on_the_field_until_they_are_hidden(open_page):
     page.click("#axes")
     assert page.get_attribute("#axes", "aria-pressed") == "false"
     page.wait_for_function(f"() => {red} === 0")
+
+
+FIREFOX = shutil.which("firefox-esr") or shutil.which("firefox")
+
+
+@pytest.fixture
+def firefox(tmp_path):
+    if FIREFOX is None:
+        pytest.skip("no firefox in PATH (Debian: apt install firefox-esr)")
+    firefox = Firefox(FIREFOX, tmp_path)
+    yield firefox
+    firefox.close()
+    assert firefox.errors == []
+
+
+@pytest.mark.parametrize("kind", ["served", "file"])
+def test_the_lessons_are_solved(firefox, kind, host, built):
+    firefox.open(host.url if kind == "served" else (built / "index.html").as_uri())
+    firefox.wait_for("document.body?.dataset.loadedMs !== undefined")
+    assert firefox.evaluate("crossOriginIsolated") == (kind == "served")
+    for name in ORDER if kind == "served" else ORDER[:1]:
+        files = load_lesson(LESSONS / name).solution()
+        firefox.evaluate(f"({HAND_IN})({json.dumps([name, files])})")
+        results = firefox.evaluate(CHECK)
+        assert len(results) >= 3
+        assert all(passed == "yes" for passed, _ in results), results

@@ -1,14 +1,34 @@
-"""Each distribution has its interfaces, with the hashes of its own generator."""
+"""Each distribution has its interfaces, with the hashes of its own generator.
+
+Finding definitions.
+
+Those that come with us, those of prefixes, those of generated packages, and none.
+
+The cost of imports in modules: heavy modules are imported only when they are needed.
+"""
 
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 
 import pytest
 from tests.distros import lines_in
+from tests.programs import run_python
 
 from tests import places
+from turtlewire import msg
 from turtlewire.distro import Distro, current_distro, since
+from turtlewire.errors import InterfaceError
+from turtlewire.msg.registry import (
+    interface_path,
+    interface_text,
+    interfaces,
+    load_action,
+    load_message,
+    load_service,
+)
 
 HASHES = json.loads((places.GOLDEN / "distros" / "hashes.json").read_text())
 
@@ -158,3 +178,159 @@ def test_fields_of_lyrical_hold_lists():
         *("True", "('b', 'c')", "('d', 'e')", "['d', 'e']", "{'f'}", "array('d', [1.0])", "3"),
         "The 'name' field must be a set or sequence and each value of type 'str'",
     ]
+
+
+@pytest.fixture
+def prefix(tmp_path, monkeypatch):
+    folder = tmp_path / "share" / "prefix_interfaces" / "msg"
+    folder.mkdir(parents=True)
+    (folder / "Thing.msg").write_text("geometry_msgs/Point place\n")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    return tmp_path
+
+
+def test_definitions_of_a_prefix_are_found(prefix):
+    assert interfaces()["prefix_interfaces"] == {"msg": ["Thing"], "srv": [], "action": []}
+    assert interface_path("prefix_interfaces/msg/Thing") == str(
+        prefix / "share/prefix_interfaces/msg/Thing.msg"
+    )
+    assert repr(msg.get_message("prefix_interfaces/msg/Thing")()) == (
+        "prefix_interfaces.msg.Thing(place=geometry_msgs.msg.Point(x=0.0, y=0.0, z=0.0))"
+    )
+
+
+def test_packages_that_pip_installed_need_no_sourcing(prefix, monkeypatch):
+    """An environment's index names them; what else lies in ``share`` is not looked at."""
+    monkeypatch.setenv("AMENT_PREFIX_PATH", "")
+    monkeypatch.setattr(sys, "prefix", str(prefix))
+    assert "prefix_interfaces" not in interfaces()
+    index = prefix / "share/ament_index/resource_index/rosidl_interfaces"
+    index.mkdir(parents=True)
+    (index / "prefix_interfaces").write_text("msg/Thing.msg\nmsg/Thing.idl")
+    assert interfaces()["prefix_interfaces"]["msg"] == ["Thing"]
+    path = prefix / "share/prefix_interfaces/msg/Thing.msg"
+    assert interface_path("prefix_interfaces/msg/Thing") == str(path)
+
+
+def test_our_definitions_win_over_those_of_a_prefix(tmp_path, monkeypatch):
+    folder = tmp_path / "share" / "std_msgs" / "msg"
+    folder.mkdir(parents=True)
+    (folder / "String.msg").write_text("int32 other\n")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    assert "other" not in interface_text("std_msgs/msg/String")
+    assert len(interfaces()["std_msgs"]["msg"]) == 30
+
+
+def test_all_interfaces_are_listed():
+    names = interfaces()
+    assert len(names) == 32
+    assert names["turtlesim"] == {
+        "msg": ["Color", "Pose"],
+        "srv": ["Kill", "SetPen", "Spawn", "TeleportAbsolute", "TeleportRelative"],
+        "action": ["RotateAbsolute"],
+    }
+    assert sum(len(kind) for kinds in names.values() for kind in kinds.values()) == 387
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "hint"),
+    [
+        (
+            "geometry_msgs/msg/Twst",
+            "unknown interface 'geometry_msgs/msg/Twst'",
+            "Did you mean geometry_msgs/msg/Twist",
+        ),
+        (
+            "nope/msg/X",
+            "unknown interface 'nope/msg/X'",
+            "`ros2 interface list` shows all interfaces.",
+        ),
+        ("a" * 300 + "/msg/X", f"unknown interface '{'a' * 300}/msg/X'", ""),
+        (
+            "Twist",
+            "'Twist' is not the name of an interface",
+            "Did you mean geometry_msgs/msg/Twist?",
+        ),
+        ("Twst", "'Twst' is not the name of an interface", "Names look like geometry_msgs/msg/T"),
+        ("a/msg/../../etc", "'a/msg/..' is not the name of an interface", "Names look like"),
+        (
+            "geometry_msgs/msgs/Twist",
+            "'geometry_msgs/msgs/Twist' is not the name of an interface",
+            "Names look like",
+        ),
+        ("turtlesim/srv/Spawn_Nope", "unknown interface 'turtlesim/srv/Spawn_Nope'", ""),
+    ],
+)
+def test_unknown_names_are_errors_that_help(name, text, hint):
+    with pytest.raises(InterfaceError) as caught:
+        load_message(name)
+    assert str(caught.value).partition("\n")[0] == text
+    assert caught.value.hint.startswith(hint)
+
+
+def test_kinds_are_not_mixed_up():
+    with pytest.raises(InterfaceError, match="'turtlesim/srv/Spawn' is not a message"):
+        load_message("turtlesim/srv/Spawn")
+    with pytest.raises(InterfaceError, match="'turtlesim/msg/Pose' is not a service"):
+        load_service("turtlesim/msg/Pose")
+    with pytest.raises(InterfaceError, match="'turtlesim/msg/Pose' is not an action"):
+        load_action("turtlesim/msg/Pose")
+
+
+HEAVY = {
+    "numpy",
+    "dataclasses",
+    "inspect",
+    "asyncio",
+    "json",
+    "yaml",
+    "concurrent",
+    "subprocess",
+    "uuid",
+    "http",
+    "logging",
+    "argparse",
+}
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        "from turtlewire import msg",
+        (
+            "from turtlewire import msg; cls = msg.get_message('tf2_msgs/msg/TFMessage'); "
+            "msg.deserialize(cls, msg.serialize(cls()))"
+        ),
+        "from geometry_msgs.msg import TransformStamped; TransformStamped()",
+        (
+            "from turtlewire import msg; cls = msg.get_message('sensor_msgs/msg/Imu'); "
+            "msg.serialize(msg.deserialize(cls, msg.serialize(cls())))"
+        ),
+        "from turtlewire import msg; msg.type_hash('rcl_interfaces/srv/SetParameters_Request')",
+        "import rosidl_runtime_py.utilities",
+    ],
+)
+def test_nothing_heavy_is_imported(program):
+    code = (
+        program + "\nimport sys\nloaded = {name.partition('.')[0] for name in sys.modules}\nimport "
+        "json\nprint(json.dumps(sorted(loaded)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-I", "-c", code], capture_output=True, text=True, check=True
+    )
+    assert HEAVY & set(json.loads(done.stdout)) == set()
+
+
+def test_a_codec_is_generated_at_first_use_only():
+    program = """
+from turtlewire import msg
+cls = msg.get_message("geometry_msgs/msg/Twist")
+made = lambda: [m.__code__.co_filename.startswith("<") for m in (cls._to_cdr, cls._from_cdr)]
+steps = [made()]
+data = msg.serialize(cls())
+steps.append(made())
+msg.deserialize(cls, data)
+print([*steps, made()])
+"""
+    done = run_python(program)
+    assert done.stdout == "[[False, False], [True, False], [True, True]]\n"
