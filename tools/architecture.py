@@ -8,8 +8,12 @@ from __future__ import annotations
 
 import ast
 import configparser
+import io
+import statistics
 import sys
-from collections import defaultdict
+import tokenize
+from collections import Counter, defaultdict
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,6 +21,192 @@ from script_options import ScriptParser
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+
+WIDTH, BOX, ROW, TOP = 1180, 30, 82, 12
+STYLE = """
+  text { font: 13px system-ui, sans-serif; fill: #1b2a35 }
+  rect { stroke: #7d8f9b; rx: 6 } .engine { fill: #dcefe6 } .ros { fill: #e3ebf7 }
+  .shells { fill: #f6eeda } path { fill: none; stroke: #8fa1ad } .up { stroke: #c0392b }
+  @media (prefers-color-scheme: dark) {
+    text { fill: #e4ebf0 } path { stroke: #6b7f8c }
+    .engine { fill: #1f4a3a } .ros { fill: #243b5c } .shells { fill: #54471f }
+  }
+"""
+
+
+def draw(house: House) -> str:
+    """Return the picture; the same for the same imports."""
+    arrows = house.rooms()
+    rows = _rows(arrows)
+    places = {
+        name: ((index + 0.5) * WIDTH / len(row), TOP + number * ROW)
+        for number, row in enumerate(reversed(rows))
+        for index, name in enumerate(row)
+    }
+    lines = [
+        _arrow(places[source], places[target], "")
+        for source, targets in _essential(arrows).items()
+        for target in sorted(targets)
+    ]
+    upward = sorted({(room(source), room(target)) for source, target in house.excused})
+    lines += [_arrow(places[source], places[target], ' class="up"') for source, target in upward]
+    boxes = [_box(name, place) for name, place in sorted(places.items())]
+    height = TOP + len(rows) * ROW
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" role="img" '
+        f'aria-label="Rooms of turtlewire and who imports whom">\n<style>{STYLE}</style>\n'
+        + "\n".join([*lines, *boxes])
+        + "\n</svg>\n"
+    )
+
+
+def _rows(arrows: dict[str, set[str]]) -> list[list[str]]:
+    """Return the rooms by height, the lowest first; a room stands above all that it imports."""
+    height: dict[str, int] = {}
+    for group in strong_components(arrows, arrows):
+        below = {target for name in group for target in arrows[name]} - {*group}
+        for name in group:
+            height[name] = 1 + max((height[target] for target in below), default=-1)
+    rows: list[list[str]] = []
+    for level in range(max(height.values()) + 1):
+        row = [name for name in arrows if height[name] == level]
+        rows.append(sorted(row, key=lambda name: (_middle(name, arrows, rows), name)))
+    return rows
+
+
+def _middle(name: str, arrows: dict[str, set[str]], rows: list[list[str]]) -> float:
+    """Return the mean position of a room's imports, from 0 to 1, so that few arrows cross."""
+    spots = [
+        (index + 0.5) / len(row)
+        for row in rows
+        for index, other in enumerate(row)
+        if other in arrows[name]
+    ]
+    return round(sum(spots) / len(spots), 6) if spots else 0.5
+
+
+def _essential(arrows: dict[str, set[str]]) -> dict[str, set[str]]:
+    """Return the arrows without those that a longer way says too."""
+    reach: dict[str, set[str]] = {}
+    for name, *_ in strong_components(arrows, arrows):
+        reach[name] = set().union(*({t} | reach.get(t, set()) for t in arrows[name]), set())
+    return {
+        name: {
+            target
+            for target in targets
+            if not any(target in reach.get(other, set()) for other in targets - {target})
+        }
+        for name, targets in arrows.items()
+    }
+
+
+def _arrow(start: tuple[float, float], end: tuple[float, float], style: str) -> str:
+    x, y, to_x, to_y = start[0], start[1] + BOX, end[0], end[1]
+    if to_y < y:  # upwards: along the sides of the boxes
+        y, to_y = start[1], end[1] + BOX
+    bend = (y + to_y) / 2
+    way = f"M{x:.0f} {y:.0f}C{x:.0f} {bend:.0f} {to_x:.0f} {bend:.0f} {to_x:.0f} {to_y:.0f}"
+    return f'<path{style} d="{way}"/>'
+
+
+def _box(name: str, place: tuple[float, float]) -> str:
+    in_engine = name == ENGINE or name.startswith(f"{ENGINE}.")
+    kind = "shells" if name == SHELLS else "engine" if in_engine else "ros"
+    x, y = place
+    width = 8 * len(name) + 16
+    return (
+        f'<rect class="{kind}" x="{x - width / 2:.0f}" y="{y}" width="{width}" height="{BOX}"/>'
+        f'<text x="{x:.0f}" y="{y + 20}" text-anchor="middle">{escape(name)}</text>'
+    )
+
+
+#: Names with an underscore that are public: of named tuples, of messages in ROS 2, and of Jupyter.
+PUBLIC = {
+    *("_replace", "_asdict", "_fields", "_make"),
+    *("_TYPE_SUPPORT", "_fields_and_field_types"),
+    *("_repr_svg_", "_repr_html_"),
+}
+
+
+def figures(root: Path, house: House) -> str:
+    """Return a table in Markdown."""
+    arrows = house.rooms()
+    lines = {name: path.read_text("utf-8").splitlines() for name, path in house.paths.items()}
+    code = sum(map(len, lines.values()))
+    comments = sum(map(_comments, house.paths.values()))
+    privates = Counter(room(name) for name, tree in house.trees.items() for _ in _privates(tree))
+    functions = [length for tree in house.trees.values() for length in _functions(tree)]
+    rows = [
+        ("modules, lines", f"{len(lines)}, {code}"),
+        ("circles, imports for types included", _circles(house, "run", "late", "type")),
+        ("circles, imports in functions included", _circles(house, "run", "late")),
+        ("circles at import time", _circles(house, "run")),
+        ("rooms, and generated packages", f"{len(arrows) - 1}, {len(house.shells)}"),
+        ("arrows between rooms", f"{sum(map(len, arrows.values()))}"),
+        ("arrows upward", f"{len(house.excused)}"),
+        ("lines of a module, median and 95 %", _spread(map(len, lines.values()))),
+        ("lines of a function, median and 95 %", _spread(functions)),
+        (
+            "characters of a line, median and 95 %",
+            _spread(len(line) for text in lines.values() for line in text if line.strip()),
+        ),
+        ("comments per 100 lines", f"{100 * comments / code:.1f}"),
+        ("privates read across objects", f"{privates.total()} ({_counts(privates)})"),
+        ("lines of test per line of code", _tests(root, lines)),
+    ]
+    return "\n".join(
+        ["| figure | |", "|---|---|", *(f"| {name} | {text} |" for name, text in rows)]
+    )
+
+
+def _circles(house: House, *kinds: str) -> str:
+    circles = house.circles(*kinds)
+    named = ", ".join(f"{len(circle)} {room(circle[0])}" for circle in circles)
+    return f"{len(circles)} ({named})" if circles else "0"
+
+
+def _spread(numbers: Iterable[int]) -> str:
+    numbers = list(numbers)
+    return f"{statistics.median(numbers):.0f}, {statistics.quantiles(numbers, n=20)[-1]:.0f}"
+
+
+def _functions(tree: ast.AST) -> Iterator[int]:
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and node.end_lineno:
+            yield node.end_lineno - node.lineno + 1
+
+
+def _comments(path: Path) -> int:
+    with path.open("rb") as source:
+        tokens = tokenize.tokenize(io.BytesIO(source.read()).readline)
+        return sum(token.type == tokenize.COMMENT for token in tokens)
+
+
+def _privates(tree: ast.AST) -> Iterator[str]:
+    """Names with one underscore that are read from other objects."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and node.attr.startswith("_"):
+            own = ast.unparse(node.value) in {"self", "cls", "super()"}
+            if not own and not node.attr.startswith("__") and node.attr not in PUBLIC:
+                yield node.attr
+
+
+def _counts(counter: Counter[str]) -> str:
+    return ", ".join(f"{name} {count}" for name, count in counter.most_common() if count > 1)
+
+
+def _tests(root: Path, lines: dict[str, list[str]]) -> str:
+    code = Counter[str]()
+    for name, text in lines.items():
+        code[room(name).removeprefix("turtlewire.")] += len(text)
+    shares = {}
+    for name, count in code.items():
+        paths = root.glob(f"packages/**/tests/{name}/**/*.py")
+        tests = sum(len(path.read_text("utf-8").splitlines()) for path in paths)
+        if tests:
+            shares[name] = tests / count
+    return ", ".join(f"{name} {share:.2f}" for name, share in sorted(shares.items()))
+
 
 ROOT = Path(__file__).resolve().parent.parent
 ENGINE = "turtlewire"
@@ -180,12 +370,8 @@ def main() -> int:
     arguments = parser.parse_args()
     house = House(arguments.root)
     if arguments.figures:
-        from code_figures import figures
-
         print(figures(arguments.root, house))
         return 0
-    from architecture_map import draw
-
     path, drawn = arguments.root / "docs" / "images" / "architecture.svg", draw(house)
     if not arguments.check:
         path.write_text(drawn, encoding="utf-8")

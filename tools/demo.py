@@ -13,8 +13,7 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from demo_domain import other_demo_runs
-from demo_launch import ENDING, VENV, Launch, interrupt
+from demo_launch import ENDING, VENV, Launch, interrupt, other_demo_runs
 from early_options import demo
 
 from turtlewire.errors import WireError

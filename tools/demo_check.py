@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from demo import FOLLOWER, LEADER
-from demo_domain import free_domain
-from demo_launch import Launch
+from demo_launch import Launch, free_domain
 
 from turtlewire import Buffer, msg, wire
 from turtlewire.distro import KILTED, since

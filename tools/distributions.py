@@ -1,7 +1,8 @@
-"""Names the distributions of this checkout, and the folders that their packages lie in."""
+"""Names the distributions of this checkout, the folders of their packages, and the user's cache."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -34,3 +35,21 @@ def packages() -> list[Path]:
 
 if __name__ == "__main__":
     print(*import_path(), sep=":")
+
+
+def cache_folder() -> Path:
+    """Return ``turtlewire`` below ``$XDG_CACHE_HOME``, which is ``~/.cache`` if it is not set."""
+    home = os.environ.get("XDG_CACHE_HOME", "")
+    # The specification of XDG: a path that is not absolute is ignored.
+    return (Path(home) if os.path.isabs(home) else Path.home() / ".cache") / "turtlewire"
+
+
+def keep(source: Path, target: Path) -> None:
+    """Copy a file into or out of the cache; another process sees all of it or nothing."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    fresh = target.with_name(f".{target.name}.{os.getpid()}")
+    try:
+        fresh.write_bytes(source.read_bytes())
+        fresh.replace(target)
+    finally:
+        fresh.unlink(missing_ok=True)

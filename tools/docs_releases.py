@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lesson_npm import BuildError
+from lesson import BuildError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -16,8 +16,7 @@ from typing import NamedTuple
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from distributions import ENGINE, LEARNING, ROS
-from release_steps import ROOT, ReleaseError, run, say
-from release_wheels import interpreter, wheel_tag
+from release_wheels import ROOT, ReleaseError, interpreter, run, say, wheel_tag
 from script_options import ScriptParser
 
 HOME = ROOT / "build" / "elsewhere"

@@ -25,16 +25,21 @@ from release_checks import (
     tell_sizes,
     try_wheels,
 )
-from release_steps import ROOT, WORK, ReleaseError, output, run, say
 from release_wheels import (
     MACHINES,
+    ROOT,
     VERSIONS,
+    WORK,
+    ReleaseError,
     Target,
     interpreters,
     make_builder,
     make_sdist,
     make_wheel,
+    output,
     possible_machines,
+    run,
+    say,
     targets,
 )
 from script_options import ScriptParser

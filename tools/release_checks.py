@@ -8,8 +8,17 @@ import tarfile
 import zipfile
 from pathlib import Path, PurePosixPath
 
-from release_steps import ROOT, WORK, ReleaseError, install_locked, run, say
-from release_wheels import Target, here, wheel_tag
+from release_wheels import (
+    ROOT,
+    WORK,
+    ReleaseError,
+    Target,
+    here,
+    install_locked,
+    run,
+    say,
+    wheel_tag,
+)
 
 #: `scripts/lock` writes which releases these are.
 TOOLS = (

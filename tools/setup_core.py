@@ -18,9 +18,8 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from distributions import ENGINE
+from distributions import ENGINE, cache_folder, keep
 from setup_steps import LOG, pip, say, stage, type_this
-from user_cache import cache_folder, keep
 
 MODULE = f"_native{sysconfig.get_config_var('EXT_SUFFIX')}"
 CORE = ENGINE / "src" / "turtlewire" / MODULE

@@ -17,11 +17,10 @@ GOOD = '<h1 id="top">A</h1><a href="sub/b.html#there">b</a><a href="https://exam
 
 @pytest.fixture(scope="module")
 def faults_of():
-    spec = importlib.util.spec_from_file_location("docs_links", TOOLS / "docs_links.py")
-    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    sys.path.insert(0, str(TOOLS))
+    module = importlib.import_module("docs")
     yield lambda folder: list(module.faults_of(folder, apart={"lesson"}))
-    del sys.modules[spec.name]
+    sys.path.remove(str(TOOLS))
 
 
 @pytest.fixture

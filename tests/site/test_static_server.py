@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from docs_releases import add_releases, is_of_release, releases
-from lesson_npm import BuildError
+from lesson import BuildError
 from tests.static_host import Host
 
 INLINE = "document.title = 'a'"

@@ -565,7 +565,7 @@ class TestCore:
 def test_the_cache_is_where_the_user_has_it(module, monkeypatch, home, cache):
     monkeypatch.setenv("XDG_CACHE_HOME", home)
     expected = Path(cache) if cache else Path.home() / ".cache" / "turtlewire"
-    assert module("user_cache").cache_folder() == expected
+    assert module("distributions").cache_folder() == expected
 
 
 def test_a_stage_says_how_long_it_took(steps, capfd):

@@ -22,7 +22,7 @@ class TestFetched:
     def npm(self, monkeypatch, tmp_path):
         """The module, with an npm that writes what it is told to, and a cache of this test."""
         monkeypatch.syspath_prepend(TOOLS)
-        module = importlib.import_module("lesson_npm")
+        module = importlib.import_module("lesson")
         self.content, self.commands, self.programs = b"archive", [], {"npm"}
         monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
         monkeypatch.setattr(module, "CLIENT", tmp_path / "build" / "npm-client")
@@ -81,6 +81,6 @@ class TestFetched:
 
 def test_a_program_that_fails_is_shown(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(TOOLS)
-    module = importlib.import_module("lesson_npm")
+    module = importlib.import_module("lesson")
     with pytest.raises(module.BuildError, match=r"(?s)`sh -c .*` failed:\nwhy"):
         module._run(["sh", "-c", "echo why; exit 1"], tmp_path)
