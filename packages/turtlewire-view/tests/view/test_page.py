@@ -421,7 +421,7 @@ def test_frames_fade_as_in_rviz(page):
     fading = in_page(
         page,
         """
-        const { AgeClock } = await import(new URL('js/age_clock.js', location.href));
+        const { AgeClock } = await import(new URL('js/frames.js', location.href));
         let now = 100;
         const ages = new AgeClock(() => now);
         ages.rename(['moving', 'static']);
@@ -459,7 +459,7 @@ def test_old_frames_are_grey_and_then_gone(page, fake):
     fake.frames(POSES, stamps=[0, 5, 5, 0])
     in_page(page, "while (!frames.stamps[1]) await new Promise(requestAnimationFrame);")
     later = """
-        const { AgeClock } = await import(new URL('js/age_clock.js', location.href));
+        const { AgeClock } = await import(new URL('js/frames.js', location.href));
         const [{ stamps, known, names }, start] = [frames, performance.now() / 1000];
         let now = 0;
         frames.ages = new AgeClock(() => now);

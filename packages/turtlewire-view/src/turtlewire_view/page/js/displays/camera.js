@@ -1,9 +1,9 @@
 // Camera: a window with an image, and over it the scene as the camera sees it.
 
 import { PerspectiveCamera } from "three";
+
 import { clear } from "./parts/common.js";
-import { PictureWindow } from "./parts/picture_window.js";
-import { Pictures } from "./parts/pictures.js";
+import { Pictures, PictureWindow } from "./parts/picture_window.js";
 
 const NEAR = 0.01; // [m], as in RViz
 /** Longest side of what is drawn of the scene [pixels]. */

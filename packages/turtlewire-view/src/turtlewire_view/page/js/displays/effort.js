@@ -1,8 +1,8 @@
 // Efforts of joints: a ring about the axis for a torque, an arrow along it for a force.
 
 import { Group, Quaternion, Vector3 } from "three";
-import { setPose } from "./parts/common.js";
-import { Display } from "./parts/display.js";
+
+import { Display, setPose } from "./parts/common.js";
 import { makeRibbons } from "./parts/ribbons.js";
 import { arrowBetween, makeArrows } from "./parts/solids.js";
 

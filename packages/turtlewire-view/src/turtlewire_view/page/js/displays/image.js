@@ -1,7 +1,6 @@
 // Image and CompressedImage: a window over the scene with the picture.
 
-import { PictureWindow } from "./parts/picture_window.js";
-import { Pictures } from "./parts/pictures.js";
+import { Pictures, PictureWindow } from "./parts/picture_window.js";
 
 export default class ImageDisplay {
   #view;

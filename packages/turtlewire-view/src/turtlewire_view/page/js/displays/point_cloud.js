@@ -1,7 +1,6 @@
 // Clouds of points with colours that the server chose.
 
-import { clear } from "./parts/common.js";
-import { Display } from "./parts/display.js";
+import { clear, Display } from "./parts/common.js";
 import { makePoints } from "./parts/points.js";
 import { makeBodies } from "./parts/solids.js";
 

@@ -4,8 +4,8 @@ import {
   CircleGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, Quaternion,
   SphereGeometry, Vector3,
 } from "three";
-import { bytesOf, litColor, opacity, setPose } from "./parts/common.js";
-import { Display } from "./parts/display.js";
+
+import { bytesOf, Display, litColor, opacity, setPose } from "./parts/common.js";
 import { makeRibbons } from "./parts/ribbons.js";
 import { makeArrows, makeAxes, placesOf } from "./parts/solids.js";
 

@@ -4,8 +4,8 @@ import {
   BufferAttribute, BufferGeometry, ConeGeometry, DoubleSide, Mesh, MeshBasicMaterial,
   MeshLambertMaterial,
 } from "three";
-import { bytesOf, litColor, opacity } from "./parts/common.js";
-import { Display } from "./parts/display.js";
+
+import { bytesOf, Display, litColor, opacity } from "./parts/common.js";
 import { makeRibbons } from "./parts/ribbons.js";
 import { makeBodies, makeBody } from "./parts/solids.js";
 import { makeText } from "./parts/text.js";

@@ -1,8 +1,8 @@
 // TwistStamped, AccelStamped and WrenchStamped: an arrow, and one with a ring that turns about it.
 
 import { Group, Quaternion, Vector3 } from "three";
-import { bytesOf } from "./parts/common.js";
-import { Display } from "./parts/display.js";
+
+import { bytesOf, Display } from "./parts/common.js";
 import { makeRibbons } from "./parts/ribbons.js";
 import { arrowBetween, makeArrows } from "./parts/solids.js";
 

@@ -1,4 +1,5 @@
 // What all displays need: emptying groups, poses, colours.
+// Base of displays whose parts are drawn from their last content and the options alone.
 
 import { Color, SRGBColorSpace } from "three";
 
@@ -58,4 +59,40 @@ export function litColor([r, g, b]) {
 /** What materials need to be drawn with an opacity from 0 to 1. */
 export function opacity(alpha) {
   return { opacity: alpha, transparent: alpha < 1, depthWrite: alpha >= 1 };
+}
+
+export class Display {
+  view;
+  options;
+  #parts = new Map(); // name to { group, header, arrays }
+
+  constructor(view, options) {
+    this.view = view;
+    this.options = options;
+  }
+
+  /** Draw a content into its group; what was there is removed before. */
+  draw(_group, _header, _arrays) {}
+
+  show(group, header, arrays) {
+    this.#parts.set(header.part ?? "", { group, header, arrays });
+    this.#redraw(group, header, arrays);
+  }
+
+  setOptions(options) {
+    this.options = options;
+    for (const [part, { group, header, arrays }] of this.#parts) {
+      if (group.parent) this.#redraw(group, header, arrays);
+      else this.#parts.delete(part);
+    }
+  }
+
+  removed(part) {
+    this.#parts.delete(part);
+  }
+
+  #redraw(group, header, arrays) {
+    clear(group);
+    this.draw(group, header, arrays);
+  }
 }

@@ -1,9 +1,9 @@
 // One interactive marker: its controls, title and axes at its pose.
 
 import { Group, Matrix4, Quaternion, Ray, Vector3 } from "three";
+
 import { bytesOf, setPose } from "./common.js";
-import { ControlDrag } from "./control_drag.js";
-import { makeHandle } from "./control_handles.js";
+import { ControlDrag, makeHandle } from "./controls.js";
 import { addMarker } from "./marker_object.js";
 import { makeRibbons } from "./ribbons.js";
 import { makeAxes } from "./solids.js";

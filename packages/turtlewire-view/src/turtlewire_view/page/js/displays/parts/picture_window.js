@@ -1,6 +1,50 @@
 // A window over the scene with a picture: it finds a free place, and is moved by its caption.
+// The picture of an Image or CompressedImage as something that a canvas draws.
 
-const STYLE = new URL("../../../image_window.css", import.meta.url).href;
+/** Turns contents into pictures; of files that take long, only the newest one. */
+export class Pictures {
+  #latest = 0;
+
+  /**
+   * Resolves to `{ picture, width, height }` with the full size of the image, or to null if a newer
+   * one has come. Raises an Error if the browser cannot read it.
+   */
+  async read(header, arrays, shapes) {
+    this.#latest += 1;
+    const mine = this.#latest;
+    if (arrays.rgba) {
+      const { width, height } = header;
+      return { picture: pixelsOf(arrays.rgba, shapes.rgba), width, height };
+    }
+    let bitmap;
+    try {
+      const blob = new Blob([arrays.file.slice()], { type: header.media_type });
+      bitmap = await createImageBitmap(blob);
+    } catch {
+      if (mine !== this.#latest) return null;
+      throw new Error(`The browser cannot read this ${header.media_type}`);
+    }
+    if (mine !== this.#latest) {
+      bitmap.close();
+      return null;
+    }
+    const { width, height } = bitmap;
+    return { picture: bitmap, width, height };
+  }
+
+  /** No picture is wanted any more. */
+  stop() {
+    this.#latest += 1;
+  }
+}
+
+function pixelsOf(rgba, [height, width]) {
+  const canvas = new OffscreenCanvas(width, height);
+  const bytes = new Uint8ClampedArray(rgba.buffer, rgba.byteOffset, rgba.length);
+  canvas.getContext("2d").putImageData(new ImageData(bytes.slice(), width, height), 0, 0);
+  return canvas;
+}
+
 const GAP_PX = 12;
 const CASCADE_PX = 28;
 const STEP_PX = 20; // of an arrow key
@@ -10,7 +54,6 @@ const STEPS = {
 
 const windows = new Set();
 let front = 0;
-let styled = null;
 
 export class PictureWindow {
   canvas = document.createElement("canvas");
@@ -20,13 +63,11 @@ export class PictureWindow {
   #details = document.createElement("span");
   #isWanted = true;
   #hasPicture = false;
-  #isPlaced = false;
   #around = document.getElementById("viewport");
   #watch = new ResizeObserver(() => this.#move(this.#place()));
 
   /** `close()`: the user does not want to see it. */
   constructor(close) {
-    styled ??= loadStyle();
     this.canvas.setAttribute("role", "img");
     this.#frame.className = "image-window";
     this.#frame.hidden = true; // until there is a picture
@@ -44,12 +85,7 @@ export class PictureWindow {
     if (!isSame) Object.assign(canvas, { width, height });
     if (this.#hasPicture) return;
     this.#hasPicture = true;
-    // Before its style is there, a window has another size, and would be placed wrongly.
-    styled.then(() => {
-      if (!windows.has(this)) return; // removed meanwhile
-      this.#isPlaced = true;
-      this.setVisible(this.#isWanted);
-    });
+    this.setVisible(this.#isWanted);
   }
 
   /** What the caption says: whose picture it is, and what is known of it. */
@@ -62,7 +98,7 @@ export class PictureWindow {
   setVisible(isVisible) {
     const wasHidden = this.#frame.hidden;
     this.#isWanted = isVisible;
-    this.#frame.hidden = !isVisible || !this.#isPlaced;
+    this.#frame.hidden = !isVisible || !this.#hasPicture;
     if (!wasHidden || this.#frame.hidden) return;
     this.#move(this.#frame.style.left ? this.#place() : this.#freePlace());
     this.#raise();
@@ -170,16 +206,4 @@ function layer(viewport) {
   made.id = "image-windows";
   viewport.querySelector("canvas").after(made);
   return made;
-}
-
-/** A promise for the style sheet of all windows; without it they are shown unstyled. */
-function loadStyle() {
-  const link = document.createElement("link");
-  const settled = new Promise((settle) => {
-    link.onload = settle;
-    link.onerror = settle;
-  });
-  Object.assign(link, { rel: "stylesheet", href: STYLE });
-  document.head.append(link);
-  return settled;
 }
