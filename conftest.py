@@ -322,6 +322,7 @@ def chromium(request):
 
 @pytest.fixture(scope="module")
 def browser(chromium):
+    """A browser for the tests of a module; it draws nothing in 3D."""
     with contextlib.closing(chromium(BROWSER_FLAGS)) as browser:
         yield browser
 

@@ -251,7 +251,8 @@ def test_rotations(
 
 
 def test_numbers_of_other_types_are_taken(buffer: turtlewire.Buffer) -> None:
-    buffer.set_transform("a", "b", 1, (Fraction(1, 2), np.float32(2), np.int8(3)))  # type: ignore[arg-type]
+    numbers: Any = (Fraction(1, 2), np.float32(2), np.int8(3))
+    buffer.set_transform("a", "b", 1, numbers)
     assert buffer.lookup_transform("a", "b").translation == (0.5, 2.0, 3.0)
 
 

@@ -271,8 +271,9 @@ class TestBatchesOfSamples:
         assert (caught.value.row, caught.value.sender) == (3, "me")
         assert buffer.frames() == []
         assert buffer.set_transforms("a", "b", np.arange(100), poses, errors="skip") == 99
+        wrong: Any = "ignore"
         with pytest.raises(ValueError, match="'raise' or 'skip'"):
-            buffer.set_transforms("a", "b", [1], poses[:1], errors="ignore")  # type: ignore[arg-type]
+            buffer.set_transforms("a", "b", [1], poses[:1], errors=wrong)
 
     def test_matrices(self, buffer: turtlewire.Buffer) -> None:
         quarter = [[0.0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]

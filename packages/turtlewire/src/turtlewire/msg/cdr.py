@@ -156,8 +156,9 @@ def _with_arrays(interface: type[Message] | str, data: bytes) -> Message:
     order = {_LITTLE_ENDIAN: "<", _BIG_ENDIAN: ">"}.get(data[:2], "")
     if not order:
         return deserialize(cls, data)
+    hashable: Any = cls  # mypy does not see that classes have hashes
     try:
-        message: Message = _row_decoder(cls, order)(data)  # type: ignore[arg-type] # classes have hashes
+        message: Message = _row_decoder(hashable, order)(data)
     except (ValueError, IndexError, struct.error):
         return deserialize(cls, data)  # which says what is wrong
     return message
