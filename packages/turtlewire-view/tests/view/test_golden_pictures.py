@@ -1,4 +1,4 @@
-"""Each display's picture in light and dark, as it was when somebody looked at it and found it good.
+"""Each display's picture in light, and below it in dark, as somebody found it good.
 
 Pictures are compared by the mean colours of blocks. To renew those in ``tests/golden/displays``
 after a wanted change, and then look at them::
@@ -60,11 +60,12 @@ TAKE = """
         if (image?.width) ink.drawImage(image, 8, 8, 160, 120);
         return canvas;
     };
-    const decode = async (text) => {
+    const decode = async ({ text, scheme }) => {
         const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
         const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
         const canvas = new OffscreenCanvas(320, 240);
-        canvas.getContext("2d", { willReadFrequently: true }).drawImage(bitmap, 0, 0);
+        const top = scheme === "dark" ? -240 : 0;
+        canvas.getContext("2d", { willReadFrequently: true }).drawImage(bitmap, 0, top);
         return canvas;
     };
     const blocks = (canvas) => {
@@ -91,9 +92,10 @@ TAKE = """
 IS_LIKE = f"""async ([golden, tolerance, scheme]) => {{
     {TAKE}
     const {{ stage, displays }} = await import("./js/main.js");
-    if (window.decoded !== golden) {{
-        window.golden = blocks(await decode(golden));
-        Object.assign(window, {{ decoded: golden, same: 0, former: null }});
+    const decoded = `${{scheme}} ${{golden}}`;
+    if (window.decoded !== decoded) {{
+        window.golden = blocks(await decode({{ text: golden, scheme }}));
+        Object.assign(window, {{ decoded, same: 0, former: null }});
     }}
     const now = blocks(await take());
     window.difference = difference(now, window.golden);
@@ -105,11 +107,19 @@ IS_LIKE = f"""async ([golden, tolerance, scheme]) => {{
     return window.same < {SETTLED} ? false : null;
 }}"""
 PICTURE = f"async () => {{ {TAKE} return encode(await take()); }}"
+#: Both schemes, one above the other.
+STACKED = f"""async (pictures) => {{
+    {TAKE}
+    const both = new OffscreenCanvas(320, 480);
+    const ink = both.getContext("2d");
+    for (const [k, text] of pictures.entries()) ink.drawImage(await decode({{ text }}), 0, 240 * k);
+    return encode(both);
+}}"""
 #: How different a golden picture is from one without the display, one that is shifted by a block's
 #: side, and one with other colours.
-CHANGES = f"""async ([golden, empty]) => {{
+CHANGES = f"""async ([golden, scheme, empty]) => {{
     {TAKE}
-    const shown = await decode(golden);
+    const shown = await decode({{ text: golden, scheme }});
     const right = blocks(shown);
     const changed = (draw) => {{
         const canvas = new OffscreenCanvas(320, 240);
@@ -117,7 +127,7 @@ CHANGES = f"""async ([golden, empty]) => {{
         return difference(right, blocks(canvas));
     }};
     return {{
-        nothing: difference(right, blocks(await decode(empty))),
+        nothing: difference(right, blocks(await decode({{ text: empty }}))),
         shifted: changed((ink) => {{
             ink.drawImage(shown, 0, 0);
             ink.drawImage(shown, {SIDE}, 0);
@@ -273,6 +283,21 @@ def small_page(browser_3d):
     viewer.close()
 
 
+def golden(name):
+    return base64.b64encode((GOLDEN / f"{name}.png").read_bytes()).decode()
+
+
+def renew(page, name):
+    """Save the picture as it is now in both schemes."""
+    pictures = []
+    for scheme in SCHEMES:
+        page.emulate_media(color_scheme=scheme)
+        page.wait_for_timeout(3000)
+        pictures.append(page.evaluate(PICTURE))
+    GOLDEN.mkdir(exist_ok=True)
+    (GOLDEN / f"{name}.png").write_bytes(base64.b64decode(page.evaluate(STACKED, pictures)))
+
+
 def show(small_page, name):
     page, source, _ = small_page
     kind, message, options = SCENES[name]
@@ -286,19 +311,15 @@ def test_picture(small_page, name, tmp_path):
     page, _, _ = small_page
     show(small_page, name)
     try:
+        if RENEWS:
+            renew(page, name)
         for scheme in SCHEMES:
             page.emulate_media(color_scheme=scheme)
-            file = GOLDEN / f"{name}_{scheme}.png"
-            if RENEWS:
-                page.wait_for_timeout(3000)
-                file.parent.mkdir(exist_ok=True)
-                file.write_bytes(base64.b64decode(page.evaluate(PICTURE)))
-            golden = base64.b64encode(file.read_bytes()).decode()
-            if not wait_until(page, IS_LIKE, [golden, TOLERANCE, scheme]):
-                seen = tmp_path / file.name
+            if not wait_until(page, IS_LIKE, [golden(name), TOLERANCE, scheme]):
+                seen = tmp_path / f"{name}_{scheme}.png"
                 seen.write_bytes(base64.b64decode(page.evaluate(PICTURE)))
                 difference = page.evaluate("window.difference")
-                pytest.fail(f"a block differs by {difference:.0f}: {seen} is not {file}")
+                pytest.fail(f"a block differs by {difference:.0f}: {seen} is not in {GOLDEN}")
     finally:
         page.evaluate(REMOVE_ALL)
 
@@ -308,9 +329,8 @@ def test_a_wrong_picture_is_soon_final(small_page):
     page.emulate_media(color_scheme="light")
     show(small_page, "point")
     try:
-        golden = base64.b64encode((GOLDEN / "polygon_light.png").read_bytes()).decode()
         ends = f"async (arg) => (await ({IS_LIKE})(arg)) === null"
-        assert wait_until(page, ends, [golden, TOLERANCE, "light"])
+        assert wait_until(page, ends, [golden("polygon"), TOLERANCE, "light"])
     finally:
         page.evaluate(REMOVE_ALL)
 
@@ -319,13 +339,10 @@ def test_a_wrong_picture_is_soon_final(small_page):
 @pytest.mark.parametrize("name", SCENES)
 def test_the_comparison_notices(small_page, name, scheme):
     page, _, empty = small_page
-    golden = base64.b64encode((GOLDEN / f"{name}_{scheme}.png").read_bytes()).decode()
-    changes = page.evaluate(CHANGES, [golden, empty[scheme]])
+    changes = page.evaluate(CHANGES, [golden(name), scheme, empty[scheme]])
     assert min(changes.values()) > 2 * TOLERANCE, changes
 
 
 def test_the_pictures_are_small():
     assert sum(file.stat().st_size for file in GOLDEN.iterdir()) < 600_000
-    assert {file.stem for file in GOLDEN.iterdir()} == {
-        f"{name}_{scheme}" for name in SCENES for scheme in SCHEMES
-    }
+    assert {file.stem for file in GOLDEN.iterdir()} == {*SCENES}
