@@ -7,7 +7,7 @@ import sys
 
 import pytest
 from tests.places import ROOT, TOOLS
-from tests.static_host import LONG_MS, Host
+from tests.plain_server import LONG_MS, Host
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 PHONE = {"viewport": {"width": 390, "height": 844}}

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 from docs_releases import add_releases, is_of_release, releases
 from lesson import BuildError
-from tests.static_host import Host
+from tests.plain_server import Host
 
 INLINE = "document.title = 'a'"
 

@@ -13,12 +13,11 @@ module             contents
 `runner`           starts a child with limits and reads its results
 `grading`          all exercises of all students, several at a time
 `pages`            results as pages without JavaScript, and as JUnit XML
-`launch_file`      a launch file that runs an exercise on the network
 `roster`           the names of the students, and their domains
 `domain_watch`     the nodes, turtles and transforms of one student's domain
 `show`             the page with a card for each student; its files are in `page/`
 `class_command`    the command line of ``turtlewire class``
-`commands`         the verbs that write reports and hand out files
+`commands`         the verbs that write reports and hand out files, launch files among them
 =================  ================================================================
 """
 

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 from turtle_class import ClassError
 from turtle_class.catalogue import LAUNCH_FILE, chosen, exercises
 from turtle_class.grading import grade_all, students_in
-from turtle_class.launch_file import launch_text
 from turtle_class.pages import as_junit, overview, student_page
 from turtle_class.runner import Limits
 from turtle_lesson.lesson import load_lesson
@@ -23,9 +22,101 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
+    from turtle_class.catalogue import ExerciseFolder
     from turtle_class.grading import GradeReport
+    from turtle_lesson.lesson import Lesson, Program
 
-__all__ = ["check", "grade", "list_exercises", "show", "start"]
+__all__ = [
+    "check",
+    "grade",
+    "launch_text",
+    "list_exercises",
+    "show",
+    "start",
+]
+
+_TEXT = '''\
+"""{title}.
+
+Run it: ros2 launch {file} (Ctrl-C ends it).
+"""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+from launch_ros.actions import Node
+
+HERE = Path(__file__).resolve().parent
+BESIDE_PYTHON = f"{{Path(sys.executable).parent}}{{os.pathsep}}{{os.environ['PATH']}}"
+ROS2 = shutil.which("ros2", path=BESIDE_PYTHON) or "ros2"
+
+
+def generate_launch_description():
+    return LaunchDescription(
+        [
+            Node(package="turtlesim", executable="turtlesim_node", name="sim"),
+{actions}
+        ]
+    )
+'''
+
+
+def launch_text(exercise: ExerciseFolder) -> str:
+    """Return a launch file that starts turtlesim, its turtles, and the programs of an exercise.
+
+    The files of the student are run by Python from the launch file's own folder.
+    """
+    actions = "\n".join(" " * 12 + line for line in _actions(load_lesson(exercise.folder)))
+    return _TEXT.format(title=exercise.title, file=LAUNCH_FILE, actions=actions)
+
+
+def _actions(lesson: Lesson) -> Iterator[str]:
+    for turtle in lesson.turtles:
+        place = f"{{x: {turtle.x}, y: {turtle.y}, theta: {turtle.theta}, name: {turtle.name}}}"
+        words = ["service", "call", "/spawn", "turtlesim/srv/Spawn", place]
+        yield from _process(["ROS2", *map(json.dumps, words)])
+    for program in lesson.programs:
+        if program.source in lesson.files:
+            yield from _own_file(program)
+        else:
+            yield from _installed(program)
+
+
+def _own_file(program: Program) -> Iterator[str]:
+    given = ["-r", f"__node:={program.name}"] if program.name else []
+    for name, value in program.parameters.items():
+        given += ["-p", f"{name}:={value}"]
+    words = [*program.arguments, *(["--ros-args", *given] if given else [])]
+    file = f"str(HERE / {json.dumps(program.source)})"
+    yield from _process(["sys.executable", file, *map(json.dumps, words)], output="screen")
+
+
+def _process(command: list[str], output: str = "log") -> Iterator[str]:
+    """Yield the action for a command, each of whose words is Python's text for it."""
+    yield "ExecuteProcess("
+    yield "    cmd=["
+    yield from (f"        {word}," for word in command)
+    yield "    ],"
+    yield f'    output="{output}",'
+    yield "),"
+
+
+def _installed(program: Program) -> Iterator[str]:
+    package, executable = program.source.split(".")
+    yield "Node("
+    yield f'    package="{package}",'
+    yield f'    executable="{executable}",'
+    if program.name:
+        yield f'    name="{program.name}",'
+    if program.arguments:
+        yield f"    arguments={json.dumps(program.arguments)},"
+    if program.parameters:
+        yield f"    parameters=[{json.dumps(dict(program.parameters))}],"
+    yield "),"
 
 
 def list_exercises(*, as_json: bool = False) -> None:

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 from tests.places import TOOLS
-from tests.static_host import LONG_MS, Host
+from tests.plain_server import LONG_MS, Host
 
 
 @pytest.fixture(scope="session")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tests.static_host import LONG_MS
+from tests.plain_server import LONG_MS
 
 from .conftest import wait_until_loaded
 

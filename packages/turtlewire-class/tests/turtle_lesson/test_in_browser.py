@@ -11,7 +11,7 @@ import shutil
 
 import pytest
 from tests.places import LESSONS
-from tests.static_host import LONG_MS, Host
+from tests.plain_server import LONG_MS, Host
 
 from turtle_lesson.lesson import load_lesson
 

@@ -18,9 +18,8 @@ module              contents
 `buffer_source`     `BufferSource`, `RobotSource`: a buffer of the program; a robot with joints
 `named_robots`      the robot of a path, or of a name of ``robot_descriptions``
 `service_watch`     calls a service when its server appears; reads a parameter of a node
-`base`              the reference of poses: fixed frame, origin, buffer
 `interactive_feedback`  feedback on interactive markers, as messages
-`frames`            `FrameScene`: all poses in one frame, at one time, as one array
+`frames`            `FrameScene`: all poses in one frame, at one time, as one array; their reference
 `tree`              the rows of the tree; the pose of one frame in another, also as a sentence
 `display_feed`      a display of a page: waits for transforms, makes packets
 `displays`          the drawing of each type of message

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from turtlewire_view.base import Base
     from turtlewire_view.displays.content import Display, Output
+    from turtlewire_view.frames import Base
     from turtlewire_view.source import ParameterAnswer, ServiceAnswer, ServiceCalls
 
     AskService: TypeAlias = Callable[[str, str, Callable[[ServiceAnswer], None]], ServiceCalls]

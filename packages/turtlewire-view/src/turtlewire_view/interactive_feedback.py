@@ -12,9 +12,9 @@ from turtlewire.web.commands import CommandError, is_finite_number
 from turtlewire_view.page_requests import ToolMessage
 
 if TYPE_CHECKING:
-    from turtlewire_view.base import Base
     from turtlewire_view.display_feed import DisplayFeed
     from turtlewire_view.displays.content import Content
+    from turtlewire_view.frames import Base
     from turtlewire_view.page_commands import GiveFeedback
 
 __all__ = ["feedback_message"]

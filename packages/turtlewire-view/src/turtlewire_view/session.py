@@ -10,10 +10,9 @@ from turtlewire.web import CommandSession
 from turtlewire.web.commands import CommandError
 from turtlewire.web.packets import encode_packet
 from turtlewire_view import page_commands
-from turtlewire_view.base import Base
 from turtlewire_view.displays import displays_of
 from turtlewire_view.displays.options import OptionError
-from turtlewire_view.frames import FrameScene
+from turtlewire_view.frames import Base, FrameScene
 from turtlewire_view.interactive_feedback import feedback_message
 from turtlewire_view.page_requests import message_of_tool, text_of_view
 from turtlewire_view.rviz_file import RvizFileError, read_rviz

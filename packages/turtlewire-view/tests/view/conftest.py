@@ -15,8 +15,7 @@ from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME
 from turtlewire.wire.base import TypeId
 from turtlewire_view import LiveSource, Viewer
 
-from .fake_view import FakeView
-from .packets import decode_packet
+from .fake_view import FakeView, decode_packet
 
 TF = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
 LIMIT_S = 120

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
+import struct
 import threading
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
@@ -14,6 +16,23 @@ from turtlewire.web.packets import encode_packet
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+
+def decode_packet(data):
+    """The header, with each array in place of its description; or what a text says."""
+    if isinstance(data, str):
+        return json.loads(data)
+    (length,) = struct.unpack_from("<I", data)
+    header = json.loads(data[4 : 4 + length])
+    start = 4 + length
+    for name, (kind, shape) in header["arrays"].items():
+        assert start % 8 == 0
+        count = int(np.prod(shape))
+        header["arrays"][name] = np.frombuffer(data, "<" + kind, count, start).reshape(shape)
+        start += -(-header["arrays"][name].nbytes // 8) * 8
+    assert start == len(data)
+    return header
+
 
 IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 

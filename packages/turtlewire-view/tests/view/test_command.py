@@ -12,7 +12,7 @@ from tests.bags import write_bag
 from tests.places import TURTLEWIRE
 from websockets.sync.client import connect
 
-from .packets import decode_packet
+from .fake_view import decode_packet
 
 
 @pytest.fixture

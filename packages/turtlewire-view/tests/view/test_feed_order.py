@@ -12,15 +12,15 @@ import pytest
 
 from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
-from turtlewire_view.base import Base
 from turtlewire_view.display_feed import DisplayFeed
 from turtlewire_view.displays.content import Removal
 from turtlewire_view.displays.laser_scan import LaserScanDisplay
 from turtlewire_view.displays.marker import MarkerDisplay
 from turtlewire_view.displays.occupancy_grid import OccupancyGridDisplay
 from turtlewire_view.displays.point_cloud import PointCloudDisplay
+from turtlewire_view.frames import Base
 
-from .packets import decode_packet
+from .fake_view import decode_packet
 
 Marker = msg.get_message("visualization_msgs/msg/Marker")
 MarkerArray = msg.get_message("visualization_msgs/msg/MarkerArray")

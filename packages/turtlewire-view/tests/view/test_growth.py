@@ -13,7 +13,7 @@ from turtlewire.wire.qos import QoS
 from turtlewire_view import session
 from turtlewire_view.display_feed import DisplayFeed
 
-from .packets import decode_packet
+from .fake_view import decode_packet
 
 ROUNDS = 20
 PATH = "nav_msgs/msg/Path"

@@ -10,9 +10,9 @@ from turtlewire import msg
 from turtlewire.tf.buffer import Buffer
 from turtlewire.web.commands import CommandError
 from turtlewire_view import BufferSource, LiveSource, Viewer
-from turtlewire_view.base import Base
 from turtlewire_view.displays.content import Content, Removal, Status
 from turtlewire_view.displays.interactive_markers import InteractiveMarkersDisplay
+from turtlewire_view.frames import Base
 from turtlewire_view.interactive_feedback import feedback_message
 from turtlewire_view.page_commands import GiveFeedback
 from turtlewire_view.rviz_file import read_rviz

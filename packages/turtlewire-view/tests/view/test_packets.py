@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as arrays_of
 
 from turtlewire.web.packets import encode_packet
 
-from .packets import decode_packet
+from .fake_view import decode_packet
 
 KINDS = st.sampled_from([np.float32, np.float64, np.uint8, np.uint16, np.int32])
 ARRAYS = st.dictionaries(

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from tests.page_checks import (
+from tests.pages import (
     UNREAD_NAMES,
     root_size_with,
     small_texts,
+    wait_until,
     weak_borders,
     weak_rings,
     weak_texts,
 )
-from tests.pages import wait_until
 
 from .fake_view import IDENTITY, pose
 from .test_page import camera_of, in_page, on_screen, press

@@ -18,7 +18,7 @@ from turtlewire import msg
 from turtlewire.wire.qos import Durability, QoS
 from turtlewire_view.named_robots import find_robot
 
-from .packets import decode_packet
+from .fake_view import decode_packet
 from .test_robot_model import URDF
 
 DESCRIPTION = {"name": "/robot_description", "type_name": "std_msgs/msg/String", "publishers": 1}

@@ -14,8 +14,7 @@ import subprocess
 import sys
 
 import pytest
-from tests.distros import lines_in
-from tests.programs import run_python
+from tests.programs import lines_in, run_python
 
 from tests import places
 from turtlewire import msg

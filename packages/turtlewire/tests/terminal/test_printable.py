@@ -1,4 +1,7 @@
-"""Text from other processes cannot reach a terminal's controls."""
+"""Text from other processes cannot reach a terminal's controls.
+
+Suggestions for names that do not exist.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ import sys
 import pytest
 
 from turtlewire.terminal.printable import printable, printable_lines
+from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.wire.report import warn
 
 
@@ -44,3 +48,20 @@ def test_no_character_leaves_a_control_behind() -> None:
 def test_a_warning_of_the_wire_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     warn("a peer on /\x1b[2J\n[INFO] is fine")
     assert capsys.readouterr().err.endswith(": a peer on /\\x1b[2J\\n[INFO] is fine\n")
+
+
+@pytest.mark.parametrize(
+    ("name", "known", "suggestion"),
+    [
+        ("/joint_state", ["/joint_states", "/tf_static", "/tf"], "Did you mean: /joint_states"),
+        (
+            "my_interface/msg/Foo",
+            ["my_interfaces/msg/Foo", "example_interfaces/msg/Bool", "rcl_interfaces/msg/Log"],
+            "Did you mean: my_interfaces/msg/Foo",
+        ),
+        ("turtle", ["turtle2", "turtle1"], "Did you mean: turtle2, turtle1"),
+        ("x", ["turtle"], ""),
+    ],
+)
+def test_names_much_less_similar_than_the_nearest_are_left_out(name, known, suggestion):
+    assert did_you_mean(name, known) == suggestion

@@ -1,7 +1,7 @@
 """XML and YAML launch files: equivalent files in both languages have the same effects."""
 
 import pytest
-from tests.distros import lines_in
+from tests.programs import lines_in
 
 from launch.actions import IncludeLaunchDescription
 from launch.frontend import Parser, expose_action, expose_substitution

@@ -1,7 +1,7 @@
 """Differences between distributions, each in its own process."""
 
 import pytest
-from tests.distros import OUTCOME, lines_in
+from tests.programs import OUTCOME, lines_in
 
 START = """
 from message_filters import ApproximateTimeSynchronizer, Cache, SimpleFilter

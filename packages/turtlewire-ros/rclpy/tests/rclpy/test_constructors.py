@@ -6,7 +6,7 @@ Each program runs in a process of a distribution, because the order of the argum
 import asyncio
 
 import pytest
-from tests.distros import OUTCOME, lines_in
+from tests.programs import OUTCOME, lines_in
 
 from rclpy.context import Context
 from rclpy.experimental import AsyncNode

@@ -1,7 +1,7 @@
 """Changes of rclpy in Kilted and Lyrical; each program runs in a process of a distribution."""
 
 import pytest
-from tests.distros import OUTCOME, lines_in
+from tests.programs import OUTCOME, lines_in
 
 START = """
 import rclpy

@@ -1,6 +1,6 @@
 """Tags in parameter files, which choose the type of a value in Lyrical."""
 
-from tests.distros import lines_in
+from tests.programs import lines_in
 
 VALUES = {
     "!!str true": "'true'",

@@ -6,7 +6,7 @@ import re
 import signal
 
 import pytest
-from tests.distros import lines_in
+from tests.programs import lines_in
 from tests.places import ROS2
 
 from rclpy.serialization import serialize_message

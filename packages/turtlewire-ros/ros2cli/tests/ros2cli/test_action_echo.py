@@ -4,7 +4,7 @@ import sys
 
 import pytest
 import yaml
-from tests.completion import offered
+from tests.programs import offered
 
 import rclpy
 from example_interfaces.action import Fibonacci

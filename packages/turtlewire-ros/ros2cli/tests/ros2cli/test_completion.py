@@ -5,7 +5,7 @@ import sys
 
 import pytest
 import yaml
-from tests.completion import offered
+from tests.programs import offered
 
 from ros2cli.completion import prototype
 from ros2cli.interface_names import interface_names

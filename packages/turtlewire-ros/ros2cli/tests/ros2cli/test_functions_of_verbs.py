@@ -11,7 +11,7 @@ import threading
 from types import SimpleNamespace
 
 import pytest
-from tests.distros import lines_in
+from tests.programs import lines_in
 
 import rclpy
 from example_interfaces.action import Fibonacci

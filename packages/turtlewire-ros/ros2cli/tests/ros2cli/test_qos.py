@@ -3,7 +3,7 @@
 import argparse
 
 import pytest
-from tests.distros import lines_in
+from tests.programs import lines_in
 
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from ros2cli.node.strategy import NodeStrategy

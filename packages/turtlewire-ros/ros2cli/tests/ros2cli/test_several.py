@@ -4,8 +4,8 @@ import sys
 import threading
 
 import pytest
-from tests.completion import offered
 from tests.needs import needs_cyclone_dds
+from tests.programs import offered
 
 from ros2cli.main import main
 from ros2topic.verb.bw import ROSTopicBandwidth

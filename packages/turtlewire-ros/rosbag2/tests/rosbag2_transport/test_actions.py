@@ -3,7 +3,7 @@
 import sys
 
 import pytest
-from tests.distros import lines_in
+from tests.programs import lines_in
 
 from rosbag2_py import PlayOptions, RecordOptions
 from rosbag2_transport.action_topics import action_topic

@@ -4,7 +4,7 @@ import argparse
 import time
 
 import pytest
-from tests.distros import lines_in
+from tests.programs import lines_in
 
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros2bag.verb import record

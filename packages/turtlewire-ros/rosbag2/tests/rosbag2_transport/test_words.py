@@ -4,9 +4,8 @@ import os
 from pathlib import Path
 
 import pytest
-from tests.completion import offered
 from tests.places import GOLDEN
-from tests.programs import run_python
+from tests.programs import offered, run_python
 
 import ros2cli.main
 

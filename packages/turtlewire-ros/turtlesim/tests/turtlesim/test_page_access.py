@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tests.page_checks import (
+from tests.pages import (
     COLORS,
     UNREAD_NAMES,
     root_size_with,

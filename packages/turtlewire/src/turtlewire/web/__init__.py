@@ -6,8 +6,7 @@ module           contents
 `server`         `Server`: the pages and WebSockets of all browsers
 `server_thread`  the thread of a server, also of Foxglove's, and its shutdown
 `loop_calls`     calls from other threads to that thread
-`sessions`       `PageSession`, the base of sessions, which answers errors
-`commands`       the commands of a page: JSON, checked and converted to tuples
+`commands`       `CommandSession`; the commands of a page: JSON, checked and converted
 `packets`        binary messages to a page: a header and arrays as bytes
 `files`          the files of a page as responses: media types, headers, compression
 `desktop`        the browser and the port of a page; their options
@@ -21,8 +20,8 @@ switch of the letter keys. `Server` serves it below ``/kit/``, and the lesson ha
 
 from __future__ import annotations
 
+from turtlewire.web.commands import CommandSession, PageSession
 from turtlewire.web.files import WebContent
 from turtlewire.web.server import Server
-from turtlewire.web.sessions import CommandSession, PageSession
 
 __all__ = ["CommandSession", "PageSession", "Server", "WebContent"]

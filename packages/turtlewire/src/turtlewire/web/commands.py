@@ -1,18 +1,34 @@
-"""Commands of a page: JSON from the browser, checked and turned into tuples.
+"""The commands of a page, and the server's side of one browser's connection.
 
-A kind of command is a class of named tuples. Its annotations are the types of the fields: text,
+Commands are JSON from the browser, checked and turned into tuples: objects with a ``type``. A kind
+of command is a class of named tuples. Its annotations are the types of the fields: text,
 true or false, numbers, lists or objects.
 ``Annotated[float, Between(0, 10)]`` narrows the size of a number or the length of a text. A field
 with a default may be missing, and is null if the annotation is a union with None.
+
+A page receives JSON, and packets, which also carry arrays (:mod:`turtlewire.web.packets`). The
+answer to a wrong command is ``{"type": "error", "text": ...}``.
 """
 
 from __future__ import annotations
 
 import json
+import logging
 import sys
 import typing
 from types import NoneType, UnionType
-from typing import Annotated, Any, NamedTuple, TypeGuard
+from typing import Annotated, Any, NamedTuple, Protocol, TypeGuard
+
+from turtlewire.terminal.printable import printable
+
+__all__ = [
+    "Between",
+    "CommandError",
+    "CommandReader",
+    "CommandSession",
+    "PageSession",
+    "is_finite_number",
+]
 
 if typing.TYPE_CHECKING:
     from collections.abc import Mapping
@@ -118,3 +134,77 @@ def _text(name: str, limits: Between, value: Any) -> str:
     if not isinstance(value, str) or not len(value) <= limits.most:
         raise CommandError(f"{name} must be a string of at most {limits.most:.15g} characters")
     return value
+
+
+_logger = logging.getLogger(__name__)
+
+
+class PageSession(Protocol):
+    """One browser's connection. The server's thread calls all methods, so they must be short."""
+
+    def outgoing(self) -> list[str | bytes]:
+        """Return the messages that this browser does not have yet.
+
+        Called after :meth:`turtlewire.web.Server.notify`, and only when the browser has taken the
+        last messages: values that became outdated in between are never sent, so a slow browser
+        sees fewer frames, not old ones.
+        """
+        ...
+
+    def receive(self, message: str | bytes) -> None:
+        """Take a message of the browser; the session answers a wrong one itself."""
+        ...
+
+    def closed(self) -> None:
+        """The browser has disconnected."""
+        ...
+
+
+class CommandSession:
+    """A session that takes commands, and answers those that make no sense.
+
+    Args:
+        reader: Reads the commands.
+    """
+
+    def __init__(self, reader: CommandReader) -> None:
+        self._reader = reader
+        self._answers: list[str | bytes] = []
+
+    def outgoing(self) -> list[str | bytes]:
+        """Return the answers and the news."""
+        answers, self._answers = self._answers, []
+        return [*answers, *self.news()]
+
+    def receive(self, message: str | bytes) -> None:
+        """Carry out a command, or answer why not."""
+        try:
+            self.obey(self._reader.read(message))
+        except CommandError as error:
+            self.refuse(error)
+        except Exception:  # it would close the connection: the page would lose all that it shows
+            _logger.exception("A command of a page failed")
+            self.answer({"type": "error", "text": "This command failed; the log says why."})
+
+    def refuse(self, error: Exception) -> None:
+        """Answer that something went wrong."""
+        self.answer({"type": "error", "text": printable(str(error))})
+
+    def answer(self, fields: dict[str, Any]) -> None:
+        """Send an answer as soon as the browser has taken the last messages."""
+        self._answers.append(json.dumps(fields))
+
+    def news(self) -> list[str | bytes]:
+        """Return the messages that this browser does not have yet, except answers."""
+        raise NotImplementedError
+
+    def obey(self, command: Any) -> None:
+        """Carry out a command.
+
+        Raises:
+            CommandError: The command cannot be carried out; the text is the answer.
+        """
+        raise NotImplementedError
+
+    def closed(self) -> None:
+        """The browser has disconnected."""

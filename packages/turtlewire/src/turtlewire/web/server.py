@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from websockets.asyncio.server import ServerConnection
     from websockets.http11 import Request, Response
 
-    from turtlewire.web.sessions import PageSession
+    from turtlewire.web.commands import PageSession
 
 __all__ = ["LIVE_PATH", "Server"]
 
