@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 import pytest
 from tests.places import BIN
 
-from tests import places
+from tests import archive, places
 
 GOLDEN = places.GOLDEN / "robots"
 XACRO = BIN / "xacro"
@@ -36,12 +36,20 @@ def errors(text):
     ]
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The files that the runs read."""
+    path = tmp_path_factory.mktemp("xacro")
+    archive.unpack(GOLDEN / "xacro" / "files.txt", path)
+    return path
+
+
 @pytest.mark.parametrize("name", sorted(RUNS))
-def test_golden(name):
+def test_golden(name, folder):
     expected = RUNS[name]
     got = subprocess.run(
         [XACRO, *expected["args"]],
-        cwd=GOLDEN / "xacro",
+        cwd=folder,
         capture_output=True,
         text=True,
         check=False,
