@@ -248,7 +248,7 @@ def test_a_robot_that_xacro_makes(path, monkeypatch):
     [
         ("cran", FileNotFoundError, "no robot of this name. Did you mean: crane"),
         ("zzz", FileNotFoundError, "robot_descriptions has no robot of this name"),
-        ("crane_mj", ValueError, "only as MJCF, and the view shows CRANE. Did you mean: crane"),
+        ("crane_mj", ValueError, "only as MJCF, and the view shows URDF. Did you mean: crane"),
         ("lost", ConnectionError, "of lost cannot be fetched: fatal: unable to access: "),
         ("lost", ConnectionError, "resolve host: example.org. git fetches it when it is shown"),
         ("bare", FileNotFoundError, "none.urdf"),

@@ -16,7 +16,7 @@ module             contents
 `occupancy_grid`   OccupancyGrid and OccupancyGridUpdate
 `marker`           Marker and MarkerArray
 `marker_shapes`    one marker, and the image on its triangles
-`interactive_markers`InteractiveMarkerUpdate; a marker, its controls and menu
+`interactive_markers`  InteractiveMarkerUpdate; a marker, its controls and menu
 `image`            Image and CompressedImage; pixels as RGBA
 `camera`           images with the scene drawn over them; the intrinsics of a CameraInfo
 `depth_cloud`      depth images as points, with colours of another image
