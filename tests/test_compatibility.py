@@ -464,7 +464,7 @@ RViz draws displays of any plugin
   view/test_rviz_file.py test_a_file_of_rviz_is_read
 RViz's Effort draws revolute joints at the stamp of the message
   view/test_efforts.py test_efforts_are_shares_of_the_greatest_ones
-  view/test_effort_pictures.py test_efforts_follow_their_joints_and_earlier_ones_stay
+  view/test_efforts.py test_efforts_follow_their_joints_and_earlier_ones_stay
 RViz's Camera can leave out each display (`Visibility`)
   view/test_cameras.py test_a_camera_of_a_file
 RViz's DepthCloud pairs images by stamps within a queue, reads compressed ones, and can fill what is hidden

@@ -28,7 +28,7 @@ SUITE = [
     "wire/test_silent_peers.py",
     "wire/test_taking.py",
     "wire/test_two_hosts.py",
-    "wire/test_writing.py",
+    "wire/test_taking.py",
     "tf/test_intake.py",
     "tf/test_listener.py",
     "tf/test_listener_lifetime.py",
