@@ -540,12 +540,3 @@ def test_at_most_fifty_names_and_always_the_selected_one(fake, open_view):
     page.uncheck("#show-names")
     in_page(page, "stage.view.draw(performance.now())")
     assert in_page(page, "return stage.labels.texts[0]") == "link777"
-
-
-def test_without_webgl_the_tree_and_the_numbers_work(fake, open_view):
-    fake.names(CHAIN)
-    fake.frames(POSES)
-    page = open_view(fake.url, "HTMLCanvasElement.prototype.getContext = () => null;")
-    page.click("#tree .row:has-text('arm')")
-    fake.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "arm")
-    assert "cannot draw in 3D" in page.inner_text("#notice")

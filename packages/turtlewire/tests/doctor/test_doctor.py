@@ -236,24 +236,24 @@ def test_weaker_requests_match(context):
     assert graph_findings(context.graph) == []
 
 
-def test_types_and_definitions_that_differ(context):
+@pytest.mark.parametrize(
+    ("type_id", "text"),
+    [
+        (
+            TypeId("std_msgs/msg/Int32", ""),
+            "/x has endpoints of different types: std_msgs/msg/Int32, std_msgs/msg/String.",
+        ),
+        (
+            STRING._replace(type_hash="RIHS01_" + "2" * 64),
+            "/x: /listener receives nothing from /talker: their definitions of the type differ.",
+        ),
+    ],
+    ids=["types", "definitions"],
+)
+def test_types_and_definitions_that_differ(context, type_id, text):
     context.create_node("talker").create_publisher("/x", STRING, QoS())
-    context.create_node("listener").create_subscription(
-        "/x", TypeId("std_msgs/msg/Int32", ""), QoS()
-    )
-    assert texts(graph_findings(context.graph)) == [
-        "/x has endpoints of different types: std_msgs/msg/Int32, std_msgs/msg/String."
-    ]
-
-
-def test_definitions_that_differ(context):
-    context.create_node("talker").create_publisher("/x", STRING, QoS())
-    context.create_node("listener").create_subscription(
-        "/x", STRING._replace(type_hash="RIHS01_" + "2" * 64), QoS()
-    )
-    assert texts(graph_findings(context.graph)) == [
-        "/x: /listener receives nothing from /talker: their definitions of the type differ."
-    ]
+    context.create_node("listener").create_subscription("/x", type_id, QoS())
+    assert texts(graph_findings(context.graph)) == [text]
 
 
 def transform(parent, child, stamp_ns=NOW_NS):
@@ -279,62 +279,52 @@ def traffic_of(*entries):
     return traffic
 
 
-def test_transforms_without_fault(context, broadcasters):
-    one, two = broadcasters
-    traffic = traffic_of(
-        (transform("world", "a"), one, False),
-        (transform("world", "b"), two, False),
-        (transform("a", "c", 0), one, True),
-    )
-    assert tf_findings(context.graph, traffic) == []
+#: The messages, each with its sender and whether it is static, and the problems.
+TREES = {
+    "no fault": (
+        [
+            (transform("world", "a"), "one", False),
+            (transform("world", "b"), "two", False),
+            (transform("a", "c", 0), "one", True),
+        ],
+        [],
+    ),
+    "two publishers": (
+        [(transform("world", "a"), "one", False), (transform("world", "a"), "two", False)],
+        ["The frame 'a' is published by /one and /two."],
+    ),
+    "two parents": (
+        [
+            (transform("world", "a"), "one", False),
+            (transform("map", "a"), "one", False),
+            (transform("world", "map"), "one", True),
+        ],
+        ["The frame 'a' has several parents: map, world."],
+    ),
+    "separate trees": (
+        [(transform("world", "a"), "one", False), (transform("odom", "b"), "one", False)],
+        ["The frames form 2 separate trees, with the roots odom, world."],
+    ),
+    "a loop": (
+        [
+            (transform("a", "b"), "one", False),
+            (transform("b", "a"), "two", False),
+            (transform("a", "c"), "two", True),
+        ],
+        ["The frames form a loop, from child to parent: a -> b -> a."],
+    ),
+}
+
+
+@pytest.mark.parametrize(("entries", "problems"), TREES.values(), ids=TREES)
+def test_problems_of_trees(context, broadcasters, entries, problems):
+    gids = dict(zip(("one", "two"), broadcasters, strict=True))
+    traffic = traffic_of(*((message, gids[name], static) for message, name, static in entries))
+    assert texts(tf_findings(context.graph, traffic)) == problems
 
 
 def test_topic_without_publisher(context):
     assert texts(tf_findings(context.graph, TfTraffic())) == ["No node publishes transforms."]
-
-
-def test_two_publishers_of_one_frame(context, broadcasters):
-    one, two = broadcasters
-    traffic = traffic_of(
-        (transform("world", "a"), one, False), (transform("world", "a"), two, False)
-    )
-    assert texts(tf_findings(context.graph, traffic)) == [
-        "The frame 'a' is published by /one and /two."
-    ]
-
-
-def test_two_parents(context, broadcasters):
-    one, _ = broadcasters
-    traffic = traffic_of(
-        (transform("world", "a"), one, False),
-        (transform("map", "a"), one, False),
-        (transform("world", "map"), one, True),
-    )
-    assert texts(tf_findings(context.graph, traffic)) == [
-        "The frame 'a' has several parents: map, world."
-    ]
-
-
-def test_separate_trees(context, broadcasters):
-    one, _ = broadcasters
-    traffic = traffic_of(
-        (transform("world", "a"), one, False), (transform("odom", "b"), one, False)
-    )
-    assert texts(tf_findings(context.graph, traffic)) == [
-        "The frames form 2 separate trees, with the roots odom, world."
-    ]
-
-
-def test_a_loop_of_frames(context, broadcasters):
-    one, two = broadcasters
-    traffic = traffic_of(
-        (transform("a", "b"), one, False),
-        (transform("b", "a"), two, False),
-        (transform("a", "c"), two, True),
-    )
-    assert texts(tf_findings(context.graph, traffic)) == [
-        "The frames form a loop, from child to parent: a -> b -> a."
-    ]
 
 
 def test_frames_with_and_without_a_slash_are_one(context, broadcasters):
