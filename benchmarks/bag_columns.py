@@ -5,8 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from benchmarks.figures import Row
-from benchmarks.rival import run_adapter
+from benchmarks.figures import Row, run_adapter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

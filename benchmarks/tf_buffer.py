@@ -7,8 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from benchmarks import floors
-from benchmarks.figures import Figure, Row
-from benchmarks.rival import run_adapter
+from benchmarks.figures import Figure, Row, run_adapter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

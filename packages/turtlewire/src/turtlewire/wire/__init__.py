@@ -17,7 +17,6 @@ module            contents
 `encapsulation`   the four bytes in front of every serialized message
 `events`          counters of endpoints' events
 `checked_node`    what the nodes of all middlewares refuse
-`delivery`        calls the callbacks of subscriptions
 `services`        services over two topics
 `report`          warnings on stderr, each printed once
 `reader_thread`   the thread that calls callbacks

@@ -1,4 +1,7 @@
-"""The thread that calls callbacks, for middlewares without one in C; asyncio in a browser tab."""
+"""The thread that calls callbacks, for middlewares without one in C; asyncio in a browser tab.
+
+`deliver` hands messages to the callback of a subscription, whichever thread it is.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +16,16 @@ from turtlewire.guarded import call_guarded
 from turtlewire.wake_up import WakeUp
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
-__all__ = ["LoopReader", "Reader", "ReaderThread"]
+    from .base import MessageInfo
+
+__all__ = [
+    "LoopReader",
+    "Reader",
+    "ReaderThread",
+    "deliver",
+]
 
 
 class Reader(Protocol):
@@ -114,3 +124,15 @@ class LoopReader:
     def close(self) -> None:
         """Run nothing more."""
         self._closed = True
+
+
+def deliver(
+    messages: Iterable[tuple[bytes, MessageInfo]],
+    on_message: Callable[[bytes, MessageInfo], None],
+    is_closed: Callable[[], bool],
+) -> None:
+    """Call ``on_message`` for each message until the subscription is closed."""
+    for message in messages:
+        if is_closed():
+            return
+        call_guarded(on_message, *message)

@@ -18,8 +18,11 @@ from turtlewire.errors import WireError
 from turtlewire.wire import open_context, report
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS
-from turtlewire.wire.zenoh.configuration import router_configuration, session_configuration
-from turtlewire.wire.zenoh.shared_memory import SharedMemory
+from turtlewire.wire.zenoh.configuration import (
+    SharedMemory,
+    router_configuration,
+    session_configuration,
+)
 
 
 def value(configuration, key: str):

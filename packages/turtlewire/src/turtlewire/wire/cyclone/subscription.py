@@ -7,9 +7,9 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING, ClassVar
 
 from turtlewire.wire.base import EventKind, MessageInfo, Subscription
-from turtlewire.wire.delivery import deliver
 from turtlewire.wire.encapsulation import LITTLE_ENDIAN
 from turtlewire.wire.graph import parse_user_data
+from turtlewire.wire.reader_thread import deliver
 from turtlewire.wire.report import warn_once
 
 from . import library as dds

@@ -17,12 +17,11 @@ from turtlewire.wire.base import (
     Subscription,
 )
 from turtlewire.wire.checked_node import CheckedNode
-from turtlewire.wire.delivery import deliver
 from turtlewire.wire.encapsulation import joined, require_message
 from turtlewire.wire.graph import GraphView, with_best_available
 from turtlewire.wire.qos import Durability
 from turtlewire.wire.queue_wait_set import Queued, QueueWaitSet, call_when_queued
-from turtlewire.wire.reader_thread import LoopReader, Reader, ReaderThread
+from turtlewire.wire.reader_thread import LoopReader, Reader, ReaderThread, deliver
 from turtlewire.wire.services import TopicClient, TopicService
 
 from .bus import EVENTS, Bus, LocalEndpoint, LocalEndpointSpec, Message, bus_of, new_gid

@@ -14,7 +14,7 @@ module                       contents
 ===========================  ==================================================================
 `tokens`                     `Token`: a node or an endpoint in the graph, with its QoS
 `attachment`                 the attachment of a message, 33 bytes
-`configuration`              the configuration of sessions and routers, and ``ZENOH_*`` variables
+`configuration`              the configuration of sessions and routers, ``ZENOH_*``, shared memory
 `library`                    the import of ``eclipse-zenoh``
 `context`                    a participant and its nodes
 `callback_threads`           the threads of callbacks; counts the calls into Zenoh's library
@@ -22,7 +22,6 @@ module                       contents
 `graph`                      nodes and endpoints, from the tokens
 `endpoint`                   the common base of all endpoints
 `publisher`                  publishers
-`shared_memory`              the pool for large messages
 `inlet`                      subscriptions, also those whose messages go to a native sink
 `services`                   clients and servers
 `router`                     ``rmw_zenohd``, its messages about rejected peers, the wait for it

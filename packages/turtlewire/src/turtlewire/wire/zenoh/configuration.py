@@ -3,6 +3,10 @@
 Sessions differ from rmw_zenoh's in one point: they look for each other by multicast on the loopback
 interface (with ``ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET``, on all interfaces), so that no router is
 needed. A router at port 7447 is used as well, as there.
+
+Where shared memory is enabled, large messages are written into it. Zenoh moves what it is given
+there as well, but first into memory of its own: an image would be copied once more, into fresh
+pages each time.
 """
 
 from __future__ import annotations
@@ -10,9 +14,11 @@ from __future__ import annotations
 import json
 import os
 import sys
+import threading
 from typing import TYPE_CHECKING, Any
 
 import zenoh
+from zenoh import shm
 
 from turtlewire.errors import WireError
 from turtlewire.wire import environment
@@ -24,7 +30,13 @@ from .library import reason_of
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ROUTER_PORT", "router_configuration", "session_configuration", "stays_on_loopback"]
+__all__ = [
+    "ROUTER_PORT",
+    "SharedMemory",
+    "router_configuration",
+    "session_configuration",
+    "stays_on_loopback",
+]
 
 ROUTER_PORT = 7447
 
@@ -227,3 +239,60 @@ def _link(*, wait_before_close_us: int) -> dict[str, Any]:
             "queue": {"congestion_control": {"block": block}},
         }
     }
+
+
+_KEY = "transport/shared_memory"
+#: Smaller messages take longer to place than to copy.
+_LARGE = 64 * 1024
+
+
+class SharedMemory:
+    """The pool into which a context's publishers write large messages. Thread-safe.
+
+    The pool has the size of the one that Zenoh makes for itself, and is made for the first large
+    message.
+
+    Args:
+        configuration: Says whether there is shared memory, and how much.
+    """
+
+    def __init__(self, configuration: zenoh.Config) -> None:
+        settings = json.loads(configuration.get_json(_KEY))
+        optimization = settings["transport_optimization"]
+        self._lock = threading.RLock()
+        self._provider: shm.ShmProvider | None = None
+        self._size: int = optimization["pool_size"]
+        self._is_usable: bool = settings["enabled"] and optimization["enabled"]
+        self._threshold: int = max(_LARGE, optimization["message_size_threshold"])
+
+    def placed(self, cdr: bytes) -> bytes | shm.ZShmMut:
+        """Return a copy in shared memory, or the message itself if the pool is full or missing."""
+        if not self._is_usable or len(cdr) < self._threshold:
+            return cdr
+        provider = self._provider or self._open()
+        if provider is None:
+            return cdr
+        try:
+            # Does not wait: a subscriber that has stopped would hold up the publisher forever.
+            buffer = provider.alloc(len(cdr), shm.GarbageCollect())
+        except zenoh.ZError:
+            return cdr
+        buffer[: len(cdr)] = cdr
+        return buffer
+
+    def _open(self) -> shm.ShmProvider | None:
+        """Make the pool; None if that fails or the context is closed."""
+        with self._lock:
+            if self._provider is None and self._is_usable:
+                try:
+                    self._provider = shm.ShmProvider.default_backend(self._size)
+                except zenoh.ZError as error:
+                    self._is_usable = False
+                    warn_once("shared memory", f"messages are copied: {reason_of(error)}")
+            return self._provider
+
+    def close(self) -> None:
+        """Free the pool, once no publisher uses it any more."""
+        with self._lock:
+            self._is_usable = False
+            self._provider = None

@@ -19,7 +19,7 @@ from turtlewire.wire.loopback import ANY_PORT, bind_to_loopback, open_sockets
 from turtlewire.wire.queue_wait_set import QueueWaitSet, call_when_queued
 from turtlewire.wire.reader_thread import ReaderThread
 
-from .configuration import session_configuration, stays_on_loopback
+from .configuration import SharedMemory, session_configuration, stays_on_loopback
 from .context_state import ZenohContextState
 from .graph import ZenohGraph
 from .inlet import ZenohSinkSubscription, ZenohSubscription
@@ -27,7 +27,6 @@ from .library import reason_of
 from .publisher import ZenohPublisher
 from .router import wait_for_router
 from .services import ZenohClient, ZenohService
-from .shared_memory import SharedMemory
 from .tokens import NODE, Token
 
 if TYPE_CHECKING:

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Entity
     from turtlewire.wire.reader_thread import ReaderThread
 
+    from .configuration import SharedMemory
     from .graph import ZenohGraph
-    from .shared_memory import SharedMemory
     from .tokens import Token
 
 __all__ = ["Owner", "ZenohContextState"]

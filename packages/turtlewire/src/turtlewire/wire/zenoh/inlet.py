@@ -13,10 +13,10 @@ from zenoh.handlers import FifoChannel
 
 from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import EventKind, EventStatus, MessageInfo, Subscription
-from turtlewire.wire.delivery import deliver
 from turtlewire.wire.encapsulation import HEADER_SIZE
 from turtlewire.wire.qos import Durability, History, Reliability
 from turtlewire.wire.queue_wait_set import Queued
+from turtlewire.wire.reader_thread import deliver
 from turtlewire.wire.report import warn_once
 
 from .attachment import Attachment
