@@ -1,4 +1,9 @@
-"""RobotModel: a URDF's shapes, each below the live frame of its link."""
+"""RobotModel: a URDF's shapes, each below the live frame of its link.
+
+The mass of a link is a ball of lead of that weight, as in RViz. The inertia is the box of even
+density that has the link's mass and moments of inertia; a link whose moments no body can have gets
+none.
+"""
 
 from __future__ import annotations
 

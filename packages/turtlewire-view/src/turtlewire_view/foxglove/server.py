@@ -1,4 +1,8 @@
-"""The server: it accepts clients, and hands each one's frames to a session."""
+"""The server: it accepts clients, and hands each one's frames to a session.
+
+A browser lets every page open a WebSocket to this machine and says in ``Origin`` which page it is.
+Without a check any page that the user visits could read the robot's topics, and drive it.
+"""
 
 from __future__ import annotations
 

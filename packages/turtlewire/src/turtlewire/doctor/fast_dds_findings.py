@@ -1,4 +1,9 @@
-"""Findings about nodes on Fast DDS, seen from Cyclone DDS."""
+"""Findings about nodes on Fast DDS, seen from Cyclone DDS.
+
+Participants that receive only over shared memory open no port, so they cannot be queried. But Fast
+DDS names its segments in ``/dev/shm`` after the ports that it would open, and each domain has its
+own ports.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,11 @@
-"""Problems of the published transforms."""
+"""Problems of the published transforms, and gaps in periodic series: lost in transit, or skipped.
+
+A broadcaster with a timer stamps its transforms one period apart. If some of them get lost, each at
+random, the steps between the rest are multiples of that period, and their lengths follow the
+geometric distribution. Three other patterns look different, and are not loss: a broadcaster that
+has no period, one that is delayed from time to time (few but long gaps), and one whose clock ticks
+faster than it publishes (all steps nearly as long).
+"""
 
 from __future__ import annotations
 

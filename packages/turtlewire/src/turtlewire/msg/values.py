@@ -6,6 +6,10 @@ As in ROS 2, sequences of numbers are ``array.array``, fixed arrays of numbers a
 everything else repeated is a list. A fixed array that was received, or that the constructor filled,
 stays in its slot as the bytes of the wire (little endian) until a program looks at it: importing
 NumPy takes longer than a node needs to start, and few programs look at covariances and UUIDs.
+
+ROS 2 holds a ``wstring`` as UTF-16; on Linux, its typesupport for Cyclone DDS and Fast DDS widens
+each code unit to a ``wchar_t`` of four bytes. So a character beyond the basic plane takes two
+units, eight bytes.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A relay between two networks."""
+"""A relay between two networks, and the names and frames that differ between its ends."""
 
 from __future__ import annotations
 

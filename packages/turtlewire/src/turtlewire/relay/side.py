@@ -1,4 +1,8 @@
-"""One end of a relay: its context, its nodes and the thread that takes messages."""
+"""One end of a relay: its context, its nodes and the thread that takes messages.
+
+All nodes of a relay are in a separate enclave. Relays carry no data from such nodes, so no message
+loops. The enclave is announced with the participant, before any endpoint.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The display of buffers and transforms in a notebook."""
+"""The display of buffers and transforms in a notebook.
+
+Tables have no colours of their own, so they are readable in light and dark notebooks.
+"""
 
 from __future__ import annotations
 

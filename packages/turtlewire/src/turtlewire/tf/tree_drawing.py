@@ -1,6 +1,7 @@
 """The diagram of a tree of frames.
 
-Each frame is a box with statistics of the link to its parent.
+Each frame is a box with statistics of the link to its parent. Children are side by side, centred
+below their parent, and subtrees are as close as possible.
 """
 
 from __future__ import annotations

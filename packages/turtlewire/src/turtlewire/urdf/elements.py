@@ -1,4 +1,7 @@
-"""XML as a tree of elements with their lines; entities and deep nesting raise errors."""
+"""XML as a tree of elements with their lines; entities and deep nesting raise errors.
+
+The version of a URDF is 1.0, and in Lyrical also 1.1 or 1.2, which add attributes and shapes.
+"""
 
 from __future__ import annotations
 

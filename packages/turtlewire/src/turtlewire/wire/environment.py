@@ -1,4 +1,12 @@
-"""The environment variables of discovery, read as in ROS 2, and of SROS 2; the end of a process."""
+"""The environment variables of discovery, read as in ROS 2, and of SROS 2; the end of a process.
+
+A process that must be secure does not start, instead of ignoring the variables of SROS 2:
+turtlewire has no DDS Security, and Zenoh's TLS has its own settings.
+
+At the end of a process, Cyclone waits for acknowledgements of its last messages for up to a second,
+and for a tenth to three tenths as a rule. A program that has received the answer to its request
+need not wait.
+"""
 
 from __future__ import annotations
 
