@@ -33,8 +33,6 @@ __all__ = [
 if typing.TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["Between", "CommandError", "CommandReader", "is_finite_number"]
-
 
 class CommandError(ValueError):
     """The browser sent something that is not a command; the text names the mistake."""
