@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from turtle_class import ClassError
-from turtlewire.terminal.file_arguments import reporting_errors
-from turtlewire.terminal.parser import seconds
+from turtlewire.terminal.parser import reporting_errors, seconds
 from turtlewire.web.desktop import add_page_options
 
 if TYPE_CHECKING:

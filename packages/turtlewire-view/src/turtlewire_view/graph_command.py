@@ -18,7 +18,7 @@ __all__ = ["add_graph_command"]
 
 def add_graph_command(commands: Any) -> None:
     """Add ``graph`` to the command's words."""
-    from turtlewire.terminal.file_arguments import complete_files, reporting_errors
+    from turtlewire.terminal.parser import complete_files, reporting_errors
     from turtlewire.web.desktop import add_page_options
 
     summary = "Show nodes, topics and QoS mismatches in the browser, or save them as a picture"

@@ -19,8 +19,7 @@ __all__ = ["add_view_command"]
 
 def add_view_command(commands: Any) -> None:
     """Add ``view`` to the command's words."""
-    from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
-    from turtlewire.terminal.parser import add_robot_topics
+    from turtlewire.terminal.parser import add_robot_topics, complete_bags, reporting_errors
     from turtlewire.web.desktop import add_page_options
     from turtlewire_view.package_folders import add_package_option
 

@@ -12,8 +12,7 @@ module          contents
 `basics`        ``set``, ``list``, ``string``, ``message``, ``option`` …
 `files`         ``file``, ``configure_file``, ``get_filename_component``, ``include``
 `installing`    ``install``
-`ament`         ``find_package``, ``ament_…``, ``rosidl_generate_interfaces``
-`xacro`         ``xacro_add_files``, for PyPI's xacro has no CMake extras
+`ament`         ``find_package``, ``ament_…``, ``rosidl_generate_interfaces``, ``xacro_add_files``
 `targets`       commands that compile C++, and commands without an effect here
 `processes`     ``execute_process``, ``add_custom_command``, ``add_custom_target``
 `tool`          a replacement of ``cmake -E``

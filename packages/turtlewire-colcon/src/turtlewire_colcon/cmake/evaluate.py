@@ -7,7 +7,7 @@ import re
 import sys
 from typing import TYPE_CHECKING
 
-from turtlewire_colcon.cmake.ament import AMENT, OWN_PARTS
+from turtlewire_colcon.cmake.ament import AMENT, OWN_PARTS, XACRO
 from turtlewire_colcon.cmake.basics import BASICS
 from turtlewire_colcon.cmake.files import FILES
 from turtlewire_colcon.cmake.installing import INSTALLING
@@ -16,7 +16,6 @@ from turtlewire_colcon.cmake.plan import Plan
 from turtlewire_colcon.cmake.processes import PROCESSES
 from turtlewire_colcon.cmake.syntax import CMakeError
 from turtlewire_colcon.cmake.targets import ROS_1, TARGETS
-from turtlewire_colcon.cmake.xacro import XACRO
 from turtlewire_colcon.package_lookup import PackageLookup
 from turtlewire_ros.manifest import read_manifest
 

@@ -70,8 +70,8 @@ class DepthCloudDisplay(PointCloudDisplay):
             late, self._depth = self._late_points(), message
         else:
             self._colors_seen.append(message)
-        next_ = self._next_points()
-        return [*late[:-1], *next_] if next_ else late  # with one status, the newest
+        now = self._next_points()
+        return [*late[:-1], *now] if now else late  # with one status, the newest
 
     def points(self, message: Any, budget: int, part: str, header: dict[str, Any]) -> Content:
         """Return the points of a depth image."""

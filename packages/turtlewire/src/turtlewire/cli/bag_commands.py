@@ -12,8 +12,14 @@ from pathlib import Path
 from typing import Any
 
 from turtlewire.cli.bag_edit_parsers import add_bag_edits
-from turtlewire.terminal.file_arguments import complete_bags, complete_files, reporting_errors
-from turtlewire.terminal.parser import add_tf_topics, seconds, tf_topics
+from turtlewire.terminal.parser import (
+    add_tf_topics,
+    complete_bags,
+    complete_files,
+    reporting_errors,
+    seconds,
+    tf_topics,
+)
 
 __all__ = ["add_bag_commands", "what_to_do_with_bag"]
 

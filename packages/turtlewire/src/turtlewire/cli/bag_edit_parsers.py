@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from turtlewire.terminal.file_arguments import complete_bags, complete_files, reporting_errors
+from turtlewire.terminal.parser import complete_bags, complete_files, reporting_errors
 
 __all__ = ["add_bag_edits"]
 

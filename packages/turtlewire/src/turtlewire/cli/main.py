@@ -14,12 +14,13 @@ from turtlewire.cli.mcp_command import add_mcp
 from turtlewire.cli.relay_command import add_relay
 from turtlewire.plugins import declared
 from turtlewire.program import program
-from turtlewire.terminal.file_arguments import complete_bags, reporting_errors
 from turtlewire.terminal.parser import (
     SuggestingParser,
     add_robot_topics,
     add_tf_topics,
+    complete_bags,
     full_topic_name,
+    reporting_errors,
     seconds,
     tf_topics,
 )

@@ -3,8 +3,7 @@
 ==================  =================================================================
 module              contents
 ==================  =================================================================
-`parser`            a parser that suggests the nearest word; shared options
-`file_arguments`    arguments that name files: completion, and errors in one line
+`parser`            a parser that suggests the nearest word; shared options; file names
 `suggestion`        the nearest names to one that does not exist
 `printable`         text from other processes, made safe for a terminal
 `keyboard`          keys one by one, on the current platform

@@ -1,24 +1,31 @@
-"""A parser that suggests names for misspelt words, and options that commands share."""
+"""A parser that suggests names for misspelt words, and options that commands share.
+
+Arguments that name files are completed in the shell, and their errors are one line.
+"""
 
 from __future__ import annotations
 
 import argparse
 import math
 import re
-from typing import TYPE_CHECKING
+import sys
+from typing import TYPE_CHECKING, Any
 
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from typing import Any, NoReturn
+    from typing import NoReturn
 
 __all__ = [
     "INVALID_CHOICE",
     "SuggestingParser",
     "add_robot_topics",
     "add_tf_topics",
+    "complete_bags",
+    "complete_files",
     "full_topic_name",
+    "reporting_errors",
     "seconds",
     "tf_topics",
 ]
@@ -120,3 +127,59 @@ def full_topic_name(text: str) -> str:
 def tf_topics(args: argparse.Namespace) -> tuple[str | list[str], str | list[str]]:
     """Return the topics of moving and of static transforms, by option or default."""
     return args.topic or "/tf", args.static_topic or "/tf_static"
+
+
+def complete_files(prefix: str, **_: Any) -> list[str]:
+    """Complete a word with files and folders."""
+    return _complete(prefix, ())
+
+
+def complete_bags(prefix: str, **_: Any) -> list[str]:
+    """Complete a word with bags and folders."""
+    return _complete(prefix, ("mcap", "db3", "zstd"))
+
+
+def _complete(prefix: str, endings: tuple[str, ...]) -> list[str]:
+    from argcomplete.completers import FilesCompleter
+
+    return list(FilesCompleter(allowednames=endings)(prefix))
+
+
+def reporting_errors(
+    command: str,
+    run: Callable[[argparse.Namespace], int | None],
+    expected: tuple[type[Exception], ...] | None = None,
+) -> Callable[[argparse.Namespace], int]:
+    """Wrap ``run``: for an expected error, print one line on stderr and return 2.
+
+    Args:
+        command: The word after ``turtlewire``.
+        run: Returns the exit status; None means 0.
+        expected: The expected errors; by default errors of bags, files and transforms.
+    """
+
+    def guarded(args: argparse.Namespace) -> int:
+        from turtlewire.errors import BagError, TransformException
+        from turtlewire.terminal.printable import printable_lines
+
+        caught = expected or (
+            *(BagError, TransformException),
+            *(ModuleNotFoundError, OSError, ValueError),
+        )
+        try:
+            return run(args) or 0
+        except caught as error:
+            text = _text_of(error)
+            if hint := getattr(error, "hint", ""):
+                text = f"{text}{'' if text.rstrip().endswith('.') else '.'} {hint}"
+            print(f"turtlewire {command}: {printable_lines(text)}", file=sys.stderr)
+            return 2
+
+    return guarded
+
+
+def _text_of(error: Exception) -> str:
+    """Return the error's message; system errors lose their number."""
+    if isinstance(error, OSError) and error.strerror and error.filename:
+        return f"{error.filename}: {error.strerror}"
+    return str(error)
