@@ -6,8 +6,8 @@ import re
 import signal
 
 import pytest
-from tests.programs import lines_in
 from tests.places import ROS2
+from tests.programs import lines_in
 
 from rclpy.serialization import serialize_message
 from robot_state_publisher.node import StartError
