@@ -11,14 +11,13 @@ import os
 import pkgutil
 import platform
 import sys
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import benchmarks
 from turtlewire.program import program
 
 if TYPE_CHECKING:
-    from types import ModuleType
-
     from benchmarks.figures import Row
 
 

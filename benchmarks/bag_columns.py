@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from benchmarks.figures import Row, run_adapter
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "Fields of a topic as NumPy arrays (CPU, opening included; in turns in one process)"
 

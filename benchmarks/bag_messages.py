@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from benchmarks.figures import Row, run_adapter
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "Messages of all topics of a bag (CPU; the libraries take turns in one process)"
 

@@ -5,12 +5,9 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from benchmarks.figures import Row, run_adapter
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "Bags and trajectories (CPU of the process; peers in separate processes)"
 

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,8 +26,6 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.wire.base import Context, Publisher
 
 TITLE = "Foxglove server: CPU of its process for each message of 100 bytes"

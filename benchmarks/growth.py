@@ -16,18 +16,16 @@ import sys
 import tempfile
 import threading
 import time
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from benchmarks import tf_listener, turtles
 from benchmarks.figures import Figure, Row
 from benchmarks.view_growth import robot, running_view
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 TITLE = "How cost grows"
 ROOT = Path(__file__).parents[1]

@@ -15,15 +15,12 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from benchmarks.figures import Figure, Row
 from benchmarks.ros2_command import ROS2
 from turtlewire_ros.executables import argv_for, executable_paths
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "ros2 launch: from the command to its nodes"
 ROUNDS = 15

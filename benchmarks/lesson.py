@@ -11,13 +11,10 @@ import subprocess
 import sys
 import tempfile
 import threading
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from benchmarks.figures import Figure, Row
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "the lesson in a browser tab (Chromium, without a graphics card)"
 SCRIPT = Path(__file__).parents[1] / "tools" / "lesson.py"

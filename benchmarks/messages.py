@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from benchmarks.clock import per_call, summary
 from benchmarks.figures import Figure, Row
 from turtlewire import msg
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 ROSBAGS = "rosbags"
 TITLE = "Messages (CDR of one message; rosbags has dataclasses and NumPy)"

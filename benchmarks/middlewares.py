@@ -8,13 +8,11 @@ import statistics
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from benchmarks import crowd, tf_listener
 from benchmarks.figures import Figure, Row
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 TITLE = "Zenoh (ours) compared with Cyclone"
 ROUNDS = 3

@@ -5,14 +5,12 @@ from __future__ import annotations
 import statistics
 import time
 from array import array
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
 from benchmarks.figures import Figure, Row
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 TITLE = "tf2_sensor_msgs.do_transform_cloud, 300,000 points (computed in double precision)"
 POINTS = 300_000

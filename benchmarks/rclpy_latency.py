@@ -11,12 +11,10 @@ import statistics
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from benchmarks.figures import Figure, Row
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "rclpy: publish to callback, two processes, std_msgs/String at 1 kHz"
 TOPIC, TYPE_NAME = "/latency", "std_msgs/msg/String"

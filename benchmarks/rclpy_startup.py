@@ -9,13 +9,10 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from benchmarks.figures import Figure, Row
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "rclpy: start-up, and an idle node"
 ROUNDS = 9

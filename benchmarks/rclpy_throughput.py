@@ -14,12 +14,10 @@ import subprocess
 import sys
 import threading
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from benchmarks.figures import Figure, Row
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 TITLE = "rclpy: throughput between two processes"
 ROUNDS = 5

@@ -11,15 +11,12 @@ import os
 import statistics
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from benchmarks import floors
 from benchmarks.figures import Figure, Row
 from benchmarks.rivals import rclpy_programs
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "real: rclpy of turtlewire, Jazzy and Kilted, and the machine's floor"
 PEERS = Path(__file__).parents[1] / "build" / "peers"

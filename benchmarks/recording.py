@@ -20,6 +20,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -34,8 +35,6 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from rosbag2_transport.player import BagPlayer
     from turtlewire.bag import BagMessage
     from turtlewire.wire.base import Graph, Publisher

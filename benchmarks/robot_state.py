@@ -16,15 +16,12 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from benchmarks.figures import Figure, Row
 from turtlewire.urdf import Robot
 from turtlewire.urdf.joint_messages import JointMessages
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "robot_state_publisher: 60 joints, CPU for each joint state"
 JOINTS, RATE_HZ, WARM_UP, MESSAGES, ROUNDS = 60, 500, 200, 1000, 3

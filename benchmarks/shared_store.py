@@ -12,14 +12,11 @@ import statistics
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from benchmarks import tf_listener
 from benchmarks.figures import Figure, Row
 from benchmarks.growth import cpu_each_second
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "Ten processes that hear 100 messages of 20 transforms a second: CPU of all in a second"
 PROCESSES = 10

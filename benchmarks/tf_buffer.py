@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from benchmarks import floors
 from benchmarks.figures import Figure, Row, run_adapter
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 DEBIAN = "Debian tf2_py"
 DEBIAN_MODULES = "rospy, tf2_py, geometry_msgs.msg, tf2_msgs.msg"

@@ -15,12 +15,10 @@ import statistics
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from benchmarks.figures import Figure, Row
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "TransformListener at 1 kHz: CPU per message, waiting lookups"
 RATE_HZ = 1000

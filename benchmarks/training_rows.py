@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from benchmarks.figures import Row, run_adapter
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = (
     "Joint states, a frame's pose, commands and images of a bag at the same moments, as in "

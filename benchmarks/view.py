@@ -12,12 +12,9 @@ import subprocess
 import sys
 import threading
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from benchmarks.figures import Figure, Row
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "3D view: 1,000 frames at 30 Hz, CPU of the server for each picture"
 FRAMES, RATE_HZ, PICTURES, ROUNDS = 1000, 30, 150, 3

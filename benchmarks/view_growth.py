@@ -17,13 +17,11 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from benchmarks.view_page import FLAGS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 FRAMES, RATE_HZ = 30, 30
 KINDS = {

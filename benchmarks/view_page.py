@@ -13,6 +13,7 @@ from __future__ import annotations
 import contextlib
 import shutil
 import statistics
+from collections.abc import Iterator
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +24,6 @@ from turtlewire.web import Server
 from turtlewire.web.packets import encode_packet
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
 TITLE = "3D view: one picture of 1,000 moving frames, without a graphics card"

@@ -14,15 +14,13 @@ import statistics
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from benchmarks.figures import Figure, Row
 from benchmarks.view_growth import robot
 from benchmarks.view_page import FLAGS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 TITLE = "3D view: from the command to the first picture"
 ROUNDS = 5

@@ -12,13 +12,11 @@ import statistics
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from typing import Any
 
 from benchmarks.figures import Figure, Row
 from benchmarks.rivals import rclpy_programs
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 TITLE = "Zenoh: publishing, shared memory, the graph"
 ROUNDS = 5

@@ -1,7 +1,5 @@
 """Small bags that tests write, and their contents."""
 
-from __future__ import annotations
-
 from turtlewire import msg
 from turtlewire.bag import BagWriter
 from turtlewire.wire.qos import Durability, QoS

@@ -5,10 +5,7 @@ from __future__ import annotations
 import doctest
 import re
 import time
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from collections.abc import Callable
 
 
 def blocks(page: str) -> list[tuple[str, str]]:

@@ -4,8 +4,6 @@ On a user's machine, such tests are skipped. `.ci/run` installs all that they ne
 test is a package that has disappeared or a download that has failed.
 """
 
-from __future__ import annotations
-
 import os
 import re
 

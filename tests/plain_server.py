@@ -1,7 +1,5 @@
 """Servers for pages: a folder without policies, a proxy below a path, a host that can go."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import importlib.util

@@ -1,7 +1,5 @@
 """Bags and messages as `rosbags` reads them; random messages of all types that it knows."""
 
-from __future__ import annotations
-
 import random
 
 import numpy as np

@@ -3,8 +3,6 @@
 `tools/architecture.py` reads the imports, those for type checkers and inside functions included.
 """
 
-from __future__ import annotations
-
 import ast
 import configparser
 import importlib

@@ -1,7 +1,5 @@
 """The benchmarks: their names, and that they run with the API as it is."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import subprocess

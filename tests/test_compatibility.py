@@ -4,8 +4,6 @@ An entry is known by its first cell, what ROS 2 does. Whoever adds one adds its 
 changes a test's name sees it here.
 """
 
-from __future__ import annotations
-
 import ast
 import functools
 import subprocess

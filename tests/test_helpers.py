@@ -3,8 +3,6 @@
 `TURTLEWIRE_NO_SKIPS=1`: a missing requirement that can be installed fails a test.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

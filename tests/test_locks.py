@@ -1,7 +1,5 @@
 """`tools/locks` names a release, with hashes, of all that CI and a release install."""
 
-from __future__ import annotations
-
 import ast
 import re
 import sys

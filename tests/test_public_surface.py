@@ -1,7 +1,5 @@
 """`tools/public_surface.py`: what the next release would break, in small checkouts."""
 
-from __future__ import annotations
-
 import importlib.util
 import subprocess
 import sys

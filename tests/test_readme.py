@@ -1,7 +1,5 @@
 """The README: its Python session runs, and its links and ROS names exist."""
 
-from __future__ import annotations
-
 import contextlib
 import doctest
 import re

@@ -1,7 +1,5 @@
 """`scripts/release`: its fast parts; a release tests the rest."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import re

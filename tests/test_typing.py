@@ -1,7 +1,5 @@
 """User code under mypy --strict: correct code passes, each wrong line is rejected."""
 
-from __future__ import annotations
-
 import ast
 import importlib
 import re

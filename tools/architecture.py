@@ -13,14 +13,12 @@ import statistics
 import sys
 import tokenize
 from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from script_options import ScriptParser
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
 
 WIDTH, BOX, ROW, TOP = 1180, 30, 82, 12
 STYLE = """

@@ -8,17 +8,15 @@ import socket
 import subprocess
 import sys
 import threading
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 from rclpy.impl import excepthooks
 from turtlewire import wire
 from turtlewire.wire import environment
 from turtlewire_ros.process_family import ProcessFamily
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = [
     "ENDING",

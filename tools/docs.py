@@ -15,10 +15,10 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import TYPE_CHECKING
 from urllib.parse import unquote, urlsplit
 
 import early_options
@@ -26,9 +26,6 @@ from docs_releases import LIST, add_releases
 from lesson import BuildError, serve
 
 from turtlewire.program import program
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
 
 #: Attributes of elements that a browser fetches without being asked.
 FETCHED = {

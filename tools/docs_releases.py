@@ -6,13 +6,10 @@ import json
 import re
 import subprocess
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from lesson import BuildError
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 _TAG = re.compile(r"v\d+\.\d+\.\d+")
 #: The list that a page reads for its menu of versions, at the root of the site.

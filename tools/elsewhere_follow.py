@@ -16,13 +16,10 @@ import socket
 import subprocess
 import sys
 import sysconfig
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from turtlewire.testing import isolated_domain
 from turtlewire.wire.environment import middleware_library
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 ROS2 = os.path.join(sysconfig.get_path("scripts"), "ros2")
 LAUNCH = ("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")

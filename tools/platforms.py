@@ -8,15 +8,12 @@ from __future__ import annotations
 
 import ast
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also where it is loaded by its path
 
 from distributions import CLASS, COLCON, ENGINE, ROOT, ROS, import_path
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 FOLDERS = (*import_path(), ROOT / "examples")
 #: Modules that Python has on POSIX only.

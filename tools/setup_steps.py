@@ -9,14 +9,12 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, NoReturn
+from typing import IO, NoReturn
 
 from distributions import ROOT
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
 
 VENV = ROOT / ".venv"
 PYTHON = VENV / "bin" / "python"

@@ -7,8 +7,8 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
 
 from distributions import COLCON, ROOT, distributions
 from setup_steps import (
@@ -22,9 +22,6 @@ from setup_steps import (
     say,
     type_this,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 #: The releases that CI installs, with their hashes.
 LOCK = ROOT / "tools" / "locks" / "ci.txt"

@@ -5,8 +5,6 @@ asserted (`scripts/page-audit` shows it, too); what it is made of and does not d
 the bytes, and that nothing moves while a page loads.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import sys

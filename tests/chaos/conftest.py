@@ -5,8 +5,6 @@ peers, a clock that jumps), it goes on, or it ends with a line that says why: it
 hangs or floods the terminal.
 """
 
-from __future__ import annotations
-
 import signal
 import sys
 import textwrap

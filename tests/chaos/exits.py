@@ -3,8 +3,6 @@
 They import nothing of the tests: `scripts/smoke` runs them on installed wheels too.
 """
 
-from __future__ import annotations
-
 import atexit
 import itertools
 import os

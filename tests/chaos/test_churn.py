@@ -1,7 +1,5 @@
 """Threads that make and destroy everything at once, while executors come and go."""
 
-from __future__ import annotations
-
 import itertools
 import random
 import threading

@@ -1,7 +1,5 @@
 """Clocks that jump: the computer's own, and the simulated one of ``/clock``."""
 
-from __future__ import annotations
-
 import platform
 import random
 import shutil

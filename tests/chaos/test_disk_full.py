@@ -1,7 +1,5 @@
 """A full disk costs the log files and what was to be written, never the program."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

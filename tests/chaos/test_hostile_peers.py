@@ -1,7 +1,5 @@
 """Peers that send nonsense, stop in the middle or connect and stay silent."""
 
-from __future__ import annotations
-
 import os
 import random
 import re

@@ -1,7 +1,5 @@
 """Processes with few file descriptors or little memory go on, or end and say why."""
 
-from __future__ import annotations
-
 import signal
 import sys
 

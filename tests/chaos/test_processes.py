@@ -1,7 +1,5 @@
 """Whatever ends `ros2 run` or `ros2 launch`, no process that they started outlives them."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sys

@@ -1,7 +1,5 @@
 """Mutated bags of each kind are read as far as they can be, or refused in a sentence."""
 
-from __future__ import annotations
-
 import random
 import shutil
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """Bags that others recorded, with `rosbags` and evo as the oracles."""
 
-from __future__ import annotations
-
 from contextlib import nullcontext
 
 import numpy as np

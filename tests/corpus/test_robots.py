@@ -1,7 +1,5 @@
 """Descriptions of real robots, whole and spoilt, against urdfdom's own `check_urdf`."""
 
-from __future__ import annotations
-
 import os
 import random
 import re

@@ -1,7 +1,5 @@
 """Real ROS 2 nodes on Fast DDS beside ours; `scripts/peers` installs them."""
 
-from __future__ import annotations
-
 import os
 import sys
 from contextlib import suppress

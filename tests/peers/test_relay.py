@@ -5,8 +5,6 @@ The client on Cyclone DDS does not speak Fast DDS itself, like those of rmw_cycl
 The doctor names real nodes on Fast DDS that do not receive over UDPv4.
 """
 
-from __future__ import annotations
-
 import os
 import re
 

@@ -5,8 +5,6 @@ such a server reads the 16 bytes in front of the fields as fields. The node then
 or never answers again.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -5,8 +5,6 @@ Messages of many types pass between ours and real nodes on Fast DDS with every f
 Transforms at 1 kHz pass between ours and real nodes on Fast DDS with nothing lost.
 """
 
-from __future__ import annotations
-
 import itertools
 import json
 import re

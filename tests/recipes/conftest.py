@@ -1,7 +1,5 @@
 """The robot of examples/mujoco_robot, in a process of its own, and a connection to its network."""
 
-from __future__ import annotations
-
 import signal
 import sys
 

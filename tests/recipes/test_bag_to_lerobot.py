@@ -1,7 +1,5 @@
 """examples/bag_to_lerobot writes the states, commands and images of a bag at the same moments."""
 
-from __future__ import annotations
-
 import importlib
 import io
 import json

@@ -1,7 +1,5 @@
 """docs/how-to/training_data.md and docs/how-to/rerun.md do what they say."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """docs/how-to/simulators.md does what it says."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """examples/notebook runs in a kernel, and its view is shown in a browser."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 

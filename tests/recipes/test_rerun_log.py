@@ -1,7 +1,5 @@
 """examples/rerun_log logs the transforms and messages of bags and of running nodes."""
 
-from __future__ import annotations
-
 import asyncio
 import importlib
 import io

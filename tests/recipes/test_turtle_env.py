@@ -3,8 +3,6 @@
 The arm of examples/mujoco_robot moves, and publishes the poses of its bodies.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import math
 import sys

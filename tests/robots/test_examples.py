@@ -1,7 +1,5 @@
 """The robots in examples/: they drive and walk."""
 
-from __future__ import annotations
-
 import importlib
 import math
 import re

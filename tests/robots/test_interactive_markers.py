@@ -1,7 +1,5 @@
 """A server of interactive markers and the 3D view in a real browser, over the real middleware."""
 
-from __future__ import annotations
-
 import contextlib
 import threading
 

@@ -1,7 +1,5 @@
 """xacro from PyPI prints what the one of ROS 2 printed (`tests/golden/robots/xacro`)."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess

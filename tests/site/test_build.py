@@ -1,7 +1,5 @@
 """`scripts/docs`: its check of the built pages, and folders that it does not replace."""
 
-from __future__ import annotations
-
 import importlib.util
 import itertools
 import re

@@ -1,7 +1,5 @@
 """The built site in Chromium, without a network: search, dark, a phone, and the lesson's button."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

@@ -3,8 +3,6 @@
 `scripts/docs --releases`: each tag is built by its own script, below its number.
 """
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import http.client

@@ -3,8 +3,6 @@
 A package is a mapping of its modules to what they hold: names, parameters, bases and members.
 """
 
-from __future__ import annotations
-
 import contextlib
 import enum
 import importlib

@@ -8,8 +8,6 @@ yet. `compare.py` prints the differences:
     python tests/surface/compare.py rclpy
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Packages laid out as colcon lays them out, and the turtles as seen on the wire."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

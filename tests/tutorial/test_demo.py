@@ -4,8 +4,6 @@ What it says, how it ends, and that its check notices when something that the de
 killed.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import signal

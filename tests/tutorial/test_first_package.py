@@ -1,7 +1,5 @@
 """The commands of docs/how-to/first_package.md, typed from top to bottom."""
 
-from __future__ import annotations
-
 import shlex
 import shutil
 

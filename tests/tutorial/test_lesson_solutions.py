@@ -1,7 +1,5 @@
 """The solutions of the lessons in the tab: the same files, launched for real on the wire."""
 
-from __future__ import annotations
-
 import itertools
 import json
 import math

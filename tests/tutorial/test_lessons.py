@@ -5,8 +5,6 @@ What turtle2 does, and a clean end.
 The files of the lesson in the browser, unchanged, by `ros2 launch` and on the wire.
 """
 
-from __future__ import annotations
-
 import math
 import shutil
 import signal

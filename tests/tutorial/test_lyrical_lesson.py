@@ -3,8 +3,6 @@
 Its programs use `with rclpy.init()` and `turtlesim_msgs`; its launch files come in three languages.
 """
 
-from __future__ import annotations
-
 import signal
 
 import pytest

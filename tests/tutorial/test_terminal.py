@@ -6,8 +6,6 @@ The venv is filled from the wheelhouse that `scripts/smoke` makes, and from noth
 run afterwards gets no network.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal

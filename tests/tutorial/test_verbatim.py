@@ -3,8 +3,6 @@
 Four processes over Cyclone DDS behave as they did on a real ROS 2.
 """
 
-from __future__ import annotations
-
 import hashlib
 import re
 import signal

@@ -1,7 +1,5 @@
 """``python -m turtlewire_colcon.pip_install``: wheels of packages that need each other."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

@@ -1,7 +1,5 @@
 """Runs of one test of ``colcon test``: the result is always in a JUnit file."""
 
-from __future__ import annotations
-
 import sys
 from xml.etree import ElementTree as ET
 

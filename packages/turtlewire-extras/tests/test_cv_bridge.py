@@ -1,7 +1,5 @@
 """Images as arrays and back; expected grays are OpenCV's."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

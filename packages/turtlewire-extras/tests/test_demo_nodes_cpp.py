@@ -1,7 +1,5 @@
 """The tutorials' nodes under the name of their C++ package, and urdf_launch."""
 
-from __future__ import annotations
-
 import signal
 
 import pytest

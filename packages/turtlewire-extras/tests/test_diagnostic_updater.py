@@ -1,7 +1,5 @@
 """The status of a node on /diagnostics."""
 
-from __future__ import annotations
-
 import pytest
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus

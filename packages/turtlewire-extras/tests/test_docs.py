@@ -1,7 +1,5 @@
 """The examples of docs/how-to/extras.md, run."""
 
-from __future__ import annotations
-
 import doctest
 import re
 import signal

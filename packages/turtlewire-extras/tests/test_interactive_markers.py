@@ -1,7 +1,5 @@
 """Markers that users move, and menus on them."""
 
-from __future__ import annotations
-
 import pytest
 
 from geometry_msgs.msg import Point, Pose

@@ -1,7 +1,5 @@
 """Calls that must not end their thread."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

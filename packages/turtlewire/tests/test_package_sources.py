@@ -1,7 +1,5 @@
 """Well-known packages that are missing: errors name what to clone."""
 
-from __future__ import annotations
-
 import pytest
 from tests.programs import run_python
 

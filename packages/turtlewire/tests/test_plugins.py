@@ -1,7 +1,5 @@
 """Entry points of installed packages, as commands find them."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """`turtlewire.testing`, as a user's tests take it."""
 
-from __future__ import annotations
-
 import os
 import socket
 import threading

@@ -8,6 +8,7 @@ endpoints of the other. The ends exchange updates as JSON objects (`News`).
 from __future__ import annotations
 
 import base64
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire.base import MessageInfo, NodeInfo, TypeId
@@ -17,8 +18,6 @@ from turtlewire.wire.qos import Durability, History, Liveliness, QoS, Reliabilit
 from turtlewire.wire.reader_thread import ReaderThread
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.local.bus import Bus, LocalEndpoint, Message
 
 __all__ = ["FarEnd", "Hub", "News"]

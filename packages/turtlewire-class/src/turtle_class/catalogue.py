@@ -5,15 +5,13 @@ from __future__ import annotations
 import html
 import json
 import re
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import turtle_lesson
 from turtle_class import ClassError
 from turtlewire.terminal.suggestion import did_you_mean
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 __all__ = ["LAUNCH_FILE", "ExerciseFolder", "chosen", "exercises"]
 

@@ -5,6 +5,7 @@ The modules that do the work, which need rclpy and turtlesim, are imported when 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,6 @@ from turtlewire.web.desktop import add_page_options
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable
 
 __all__ = ["add_class_command"]
 

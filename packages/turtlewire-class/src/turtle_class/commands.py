@@ -8,6 +8,7 @@ import signal
 import sys
 import threading
 import time
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from turtle_class import ClassError
@@ -19,7 +20,6 @@ from turtle_lesson.lesson import load_lesson
 from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
     from turtle_class.catalogue import ExerciseFolder

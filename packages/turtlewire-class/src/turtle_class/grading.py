@@ -6,6 +6,7 @@ import os
 import queue
 import signal
 import threading
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -16,7 +17,6 @@ from turtlewire.terminal.printable import printable
 from turtlewire.terminal.signal_watch import watched
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
     from pathlib import Path
 
     from turtle_class.catalogue import ExerciseFolder

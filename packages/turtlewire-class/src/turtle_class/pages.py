@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import html
+from collections.abc import Sequence
 from importlib.resources import files
 from typing import TYPE_CHECKING
 from urllib.parse import quote
@@ -16,8 +17,6 @@ from xml.etree import ElementTree as ET
 from turtlewire.terminal.printable import printable, printable_lines
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from turtle_class.grading import GradeReport
     from turtle_class.runner import CheckResult, Outcome
 

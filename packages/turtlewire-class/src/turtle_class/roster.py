@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtle_class import ClassError
@@ -11,7 +12,6 @@ from turtlewire.terminal.printable import printable
 from turtlewire.wire.environment import MAX_DOMAIN_ID
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
     from pathlib import Path
 
 __all__ = ["Seat", "read_roster", "seats_of_domains"]

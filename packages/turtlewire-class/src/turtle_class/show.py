@@ -6,6 +6,7 @@ import contextlib
 import json
 import sys
 import threading
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,8 +16,6 @@ from turtlewire.web import Server
 from turtlewire.web.desktop import wanted_port
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from turtle_class.roster import Seat
 
 __all__ = ["ClassPage"]

@@ -12,6 +12,8 @@ import json
 import os
 import signal
 import sys
+from collections.abc import Iterator
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from turtle_class.bus_link import FarEnd
@@ -24,8 +26,6 @@ from turtlesim.testing.programs import rclpy_in_step
 from turtlesim.testing.stage import Stage
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import ModuleType
     from typing import TextIO
 
     from turtle_class.bus_link import News

@@ -7,6 +7,7 @@ import json
 import socket
 import subprocess
 import sys
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from turtle_class.bus_link import Hub
@@ -14,7 +15,6 @@ from turtle_lesson.exercise import start_program
 from turtle_lesson.mistakes import Mistake, ReportedMistake
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
     from pathlib import Path
 
     from turtle_class.bus_link import News

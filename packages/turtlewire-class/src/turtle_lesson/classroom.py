@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from turtle_lesson.grading import grade_as_json
 from turtle_lesson.lesson import load_lesson
 from turtle_lesson.session import LessonSession
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = ["grade", "open_session"]
 

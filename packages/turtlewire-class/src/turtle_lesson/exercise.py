@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, NamedTuple
 
 from rclpy.node import Node
@@ -15,9 +17,7 @@ from turtlesim.testing import Simulation
 from turtlesim.testing.programs import ProgramError, rclpy_in_step
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
     from contextlib import AbstractContextManager
-    from types import ModuleType
 
     from turtle_lesson.lesson import Lesson, Program
     from turtlesim.testing.stage import Stage

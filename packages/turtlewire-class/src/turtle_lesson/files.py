@@ -7,11 +7,8 @@ import linecache
 import os
 import re
 import sys
+from collections.abc import Iterator, Mapping
 from types import ModuleType
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
 
 __all__ = ["imported", "module_name", "solved"]
 

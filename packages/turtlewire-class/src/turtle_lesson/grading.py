@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtle_lesson.exercise import NotYet, exercise_of, programs_here
 from turtle_lesson.mistakes import mistake_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
     from contextlib import AbstractContextManager
 
     from turtle_lesson.exercise import Exercise

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import re
 import traceback
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Collection
+from typing import NamedTuple
 
 from turtlewire.errors import TransformException
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
 
 __all__ = ["Mistake", "ReportedMistake", "mistake_of"]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
@@ -16,8 +17,6 @@ from turtlesim.testing import faults
 from turtlesim.transform_view import TransformView, field_frames
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
-
     from turtle_lesson.lesson import Lesson
     from turtlesim.testing import Simulation
     from turtlesim.testing.faults import Fault

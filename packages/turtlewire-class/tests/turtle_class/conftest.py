@@ -1,7 +1,5 @@
 """Submissions of students, some of which are wrong or hostile."""
 
-from __future__ import annotations
-
 import pytest
 
 from turtle_class.catalogue import chosen

@@ -1,7 +1,5 @@
 """The folder for a USB stick: built from a wheelhouse, installed and used without a network."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """The checks of the exercises that are no lessons: solutions pass, typical mistakes do not."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

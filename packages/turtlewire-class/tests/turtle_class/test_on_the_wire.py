@@ -1,7 +1,5 @@
 """The solutions run unchanged by `ros2 launch`, with the launch files that students get."""
 
-from __future__ import annotations
-
 import math
 import signal
 import threading

@@ -1,7 +1,5 @@
 """The roster of a class: ranges of domains and roster files, right and wrong."""
 
-from __future__ import annotations
-
 import pytest
 
 from turtle_class import ClassError

@@ -1,7 +1,5 @@
 """The page of the class: the state of each domain, all of it escaped."""
 
-from __future__ import annotations
-
 import contextlib
 import itertools
 import os

@@ -3,8 +3,6 @@
 The commands of docs/how-to/classroom.md, run.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The built lesson, served to this machine, and pages of it that report their errors."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

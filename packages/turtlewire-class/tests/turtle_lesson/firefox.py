@@ -1,7 +1,5 @@
 """Firefox, driven through WebDriver BiDi, which it speaks itself: no driver is installed."""
 
-from __future__ import annotations
-
 import contextlib
 import itertools
 import json

@@ -1,7 +1,5 @@
 """The lesson by keyboard and with a screen reader, and its messages while it loads."""
 
-from __future__ import annotations
-
 import pytest
 from tests.plain_server import LONG_MS
 

@@ -1,7 +1,5 @@
 """The checks of all lessons: solutions pass, starters and typical mistakes do not."""
 
-from __future__ import annotations
-
 import difflib
 import json
 import re

@@ -3,8 +3,6 @@
 The lesson in Firefox: each lesson is solved by its solution, served and opened as a file.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

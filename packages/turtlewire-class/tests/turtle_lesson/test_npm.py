@@ -1,7 +1,5 @@
 """How scripts/lesson fetches packages of npm: once, with the right hash, without Debian's npm."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import importlib

@@ -3,8 +3,6 @@
 `tests/golden/surface` was captured from a real ROS 2 Jazzy.
 """
 
-from __future__ import annotations
-
 import ast
 import json
 import re

@@ -1,7 +1,5 @@
 """The data of a running lesson that the page gets, under CPython."""
 
-from __future__ import annotations
-
 import json
 import struct
 

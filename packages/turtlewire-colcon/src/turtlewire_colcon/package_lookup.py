@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from turtlewire.package_sources import source_hint
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire_ros.prefix import MARKERS, editable_source, own_prefix
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = ["CONFIG_MARK", "PackageLookup"]
 

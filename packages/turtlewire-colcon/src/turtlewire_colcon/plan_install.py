@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
+from collections.abc import Iterator
 from configparser import ConfigParser
 from pathlib import Path
 from shutil import copyfile, copymode
@@ -19,8 +20,6 @@ from turtlewire_colcon.package_lookup import CONFIG_MARK
 from turtlewire_ros.prefix import COMPILED_TARGETS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire_colcon.cmake.interpreter import Interpreter
     from turtlewire_colcon.cmake.plan import FileRule, Install, Plan, PythonPackage
     from turtlewire_colcon.cmake.syntax import SourcePosition

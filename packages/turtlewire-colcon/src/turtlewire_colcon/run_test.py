@@ -11,16 +11,13 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
 from turtlewire.testing import reserved_domain
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _MODULES = {"pytest": "pytest", "launch": "launch_testing.launch_test"}
 #: A launch test needs this module, which comes with ROS 2's launch_testing.

@@ -12,6 +12,7 @@ import os
 import subprocess
 import tempfile
 import zipfile
+from collections.abc import Callable, Iterable, Mapping
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,8 +24,6 @@ from turtlewire_colcon.plan_install import PlanInstaller, build_commands, entry_
 from turtlewire_ros.manifest import Manifest, ManifestError, read_manifest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
-
     from turtlewire_colcon.cmake.plan import Plan
 
 __all__ = ["WheelError", "build_package_wheels"]

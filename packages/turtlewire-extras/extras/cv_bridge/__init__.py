@@ -11,8 +11,6 @@ module       contents
 ===========  ======================================================
 """
 
-from __future__ import annotations
-
 from cv_bridge.core import CvBridge, CvBridgeError
 
 __all__ = ["CvBridge", "CvBridgeError"]

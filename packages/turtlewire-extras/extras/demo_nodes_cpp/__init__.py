@@ -11,8 +11,6 @@ module                  contents
 ======================  ==============================================
 """
 
-from __future__ import annotations
-
 from demo_nodes_cpp.parameter_blackboard import ParameterBlackboard
 from demo_nodes_cpp.services import ServerNode
 from demo_nodes_cpp.topics import Listener, Talker

@@ -11,8 +11,6 @@ module                contents
 ====================  ===========================================================
 """
 
-from __future__ import annotations
-
 from diagnostic_updater._publisher import (
     DiagnosedPublisher,
     HeaderlessTopicDiagnostic,

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from diagnostic_updater._status_wrapper import DiagnosticStatusWrapper
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = [
     "CompositeDiagnosticTask",

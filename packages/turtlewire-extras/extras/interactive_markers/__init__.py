@@ -8,8 +8,6 @@ module                       contents
 ===========================  ==================================================
 """
 
-from __future__ import annotations
-
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
 from interactive_markers.menu_handler import MenuHandler
 

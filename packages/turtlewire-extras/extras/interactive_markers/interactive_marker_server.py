@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from builtin_interfaces.msg import Time as TimeMessage
@@ -17,8 +18,6 @@ from visualization_msgs.msg import (
 from visualization_msgs.srv import GetInteractiveMarkers
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from geometry_msgs.msg import Pose
     from rclpy.node import Node
     from rclpy.qos import QoSProfile

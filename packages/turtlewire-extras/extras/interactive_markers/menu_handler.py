@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from visualization_msgs.msg import InteractiveMarkerFeedback, MenuEntry
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from interactive_markers.interactive_marker_server import Callback, InteractiveMarkerServer
 
 __all__ = ["MenuHandler"]

@@ -6,8 +6,8 @@ import os
 import struct
 import threading
 from bisect import bisect_right
+from collections.abc import Callable
 from contextlib import closing
-from typing import TYPE_CHECKING
 
 from turtlewire.bag import open_bag
 from turtlewire.bag.encodings import is_decodable, not_in_cdr
@@ -16,9 +16,6 @@ from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer
 from turtlewire_view.live import MAX_FRAMES, frames_left_out, stamp_range_ns
 from turtlewire_view.source import Joints, OfflineSource, TimelineState, Topic
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = ["BagSource", "StampsOfLog"]
 

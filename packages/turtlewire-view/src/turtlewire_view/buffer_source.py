@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,8 +19,6 @@ from turtlewire_view.live import LiveTimeline, newest_stamp_ns
 from turtlewire_view.source import Joints, OfflineSource, Topic
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.msg import Message
     from turtlewire.tf.buffer import Buffer
     from turtlewire.urdf import Robot

@@ -7,6 +7,7 @@ import os
 import threading
 import time
 from collections import Counter
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, cast
 
 from turtlewire import msg, wire
@@ -30,8 +31,6 @@ from turtlewire_view.source import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire import base
 
 __all__ = [

@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import logging
 import os
+from collections.abc import Iterable
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import quote, unquote, urlsplit
@@ -19,8 +20,6 @@ from turtlewire.web import WebContent
 from turtlewire_view.package_folders import PACKAGE_NAME
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from turtlewire_view.package_folders import PackageFolders
 
 __all__ = [

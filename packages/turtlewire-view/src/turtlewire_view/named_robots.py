@@ -5,17 +5,15 @@ from __future__ import annotations
 import errno
 import os
 import re
+from collections.abc import Mapping
 from importlib import import_module
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from turtlewire.path_arguments import near_path
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.urdf import Robot
 from turtlewire_view.package_folders import PackageFolders
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = ["FoundRobot", "find_robot"]
 

@@ -6,11 +6,11 @@ import hashlib
 import os
 import re
 import sys
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Iterator, Mapping, Sequence
 
 __all__ = ["PACKAGE_NAME", "PackageFolders", "add_package_option"]
 

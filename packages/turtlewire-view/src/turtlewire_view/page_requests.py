@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -12,8 +13,6 @@ from turtlewire_view.rviz_file import SavedDisplay, SavedView, is_camera
 from turtlewire_view.rviz_writing import write_rviz
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
     from turtlewire_view.page_commands import PublishWithTool, SaveView
 
 __all__ = ["TOOLS", "ToolMessage", "message_of_tool", "text_of_view", "tool_message"]

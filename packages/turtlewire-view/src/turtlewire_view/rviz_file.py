@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, TypedDict
@@ -20,7 +20,6 @@ from turtlewire_view.rviz_options import CLASSES, from_rviz
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Iterator
 
 __all__ = [
     "SWITCHES",

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.web.commands import is_finite_number
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire_view.displays.options import Option
 
 __all__ = [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +17,6 @@ from turtlewire_view.rviz_file import (
 from turtlewire_view.rviz_options import CLASSES, class_for, to_rviz
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from turtlewire_view.rviz_file import Camera
 
 __all__ = ["write_rviz"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections import deque
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
@@ -16,8 +17,6 @@ from turtlewire.wire.services import require_callable
 from turtlewire_view.source import ParameterAnswer, ServiceAnswer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import Context, Node
 
 __all__ = [

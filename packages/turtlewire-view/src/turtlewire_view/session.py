@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from turtlewire.errors import TurtlewireError
@@ -19,8 +20,6 @@ from turtlewire_view.rviz_file import RvizFileError, read_rviz
 from turtlewire_view.tree import TreeTable, missing_frame, path_between, relation
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire_view.display_feed import DisplayFeed
     from turtlewire_view.frames import Frames
     from turtlewire_view.rviz_file import SavedView

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from turtlewire.bag import Bag
@@ -24,8 +25,6 @@ from turtlewire_view.rviz_file import load_rviz
 from turtlewire_view.viewer import Viewer
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from turtlewire.urdf.robot import Positions
     from turtlewire_view.source import Source
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,8 +15,6 @@ from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire_view.frames import FRAME_TIMEOUT_S
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
-
     from turtlewire.tf.buffer import Buffer
     from turtlewire.tf.links import Link
 

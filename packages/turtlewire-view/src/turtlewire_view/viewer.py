@@ -6,6 +6,7 @@ import contextlib
 import threading
 from dataclasses import replace
 from pathlib import Path
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import TurtlewireError
@@ -22,8 +23,6 @@ from turtlewire_view.package_folders import PackageFolders
 from turtlewire_view.session import ViewSession
 
 if TYPE_CHECKING:
-    from types import TracebackType
-
     from typing_extensions import Self
 
     from turtlewire_view.rviz_file import SavedView

@@ -1,7 +1,5 @@
 """A page of the graph, nodes for it, and a page that is no browser."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import threading

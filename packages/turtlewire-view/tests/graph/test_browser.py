@@ -1,7 +1,5 @@
 """The page of the graph in a real browser."""
 
-from __future__ import annotations
-
 import pytest
 from tests.pages import (
     UNREAD_NAMES,

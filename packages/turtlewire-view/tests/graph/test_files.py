@@ -3,8 +3,6 @@
 docs/how-to/graph.md does what it says.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """The server of the page: the live graph, and topics that are measured on demand."""
 
-from __future__ import annotations
-
 import contextlib
 
 import pytest

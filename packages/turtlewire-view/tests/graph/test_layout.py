@@ -3,8 +3,6 @@
 What the graph holds, and which part of it is shown.
 """
 
-from __future__ import annotations
-
 import itertools
 import re
 

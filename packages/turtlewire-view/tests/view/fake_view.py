@@ -6,16 +6,14 @@ import json
 import math
 import struct
 import threading
+from collections.abc import Callable, Sequence
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from turtlewire.web import Server
 from turtlewire.web.packets import encode_packet
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
 
 
 def decode_packet(data):

@@ -1,7 +1,5 @@
 """A real browser whose page looks down at the displays of a test."""
 
-from __future__ import annotations
-
 import pytest
 from tests.pages import wait_until
 

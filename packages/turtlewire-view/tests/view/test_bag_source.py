@@ -1,7 +1,5 @@
 """A bag in the view: frames at its time, messages as they are due, jumps."""
 
-from __future__ import annotations
-
 import contextlib
 import random
 import shutil

@@ -4,7 +4,6 @@ Windows of pictures over the scene: their places, names, and how they are moved 
 """
 
 # ruff: noqa: F811 - fixtures are imported
-from __future__ import annotations
 
 import base64
 import io

@@ -3,8 +3,6 @@
 The first picture of a page shows frames and displays, until the user takes the camera.
 """
 
-from __future__ import annotations
-
 import contextlib
 import itertools
 import math

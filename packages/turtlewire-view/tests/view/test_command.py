@@ -1,7 +1,5 @@
 """`turtlewire view`: its words, its address, and its end."""
 
-from __future__ import annotations
-
 import json
 import signal
 import socket

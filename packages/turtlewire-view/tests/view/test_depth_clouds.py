@@ -4,7 +4,6 @@ Depth clouds in a real browser: the points are as large as their pixels.
 """
 
 # ruff: noqa: F811 - fixtures are imported
-from __future__ import annotations
 
 import math
 

@@ -1,7 +1,6 @@
 """What a display's panel offers: where a robot comes from, links, namespaces, another topic."""
 
 # ruff: noqa: F811 - fixtures are imported
-from __future__ import annotations
 
 from .looking_down import get, pose, scene, shown_page, stamped  # noqa: F401 - fixtures
 

@@ -1,7 +1,6 @@
 """Each display in a real browser: what colour the picture has at known places."""
 
 # ruff: noqa: F811 - fixtures are imported
-from __future__ import annotations
 
 import base64
 import copy

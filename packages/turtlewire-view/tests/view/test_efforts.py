@@ -4,7 +4,6 @@ Efforts in a real browser: rings and arrows at the joints' frames.
 """
 
 # ruff: noqa: F811 - fixtures are imported
-from __future__ import annotations
 
 import math
 

@@ -3,8 +3,6 @@
 Scans beam by beam, decay time, and colours along an axis of the fixed frame.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

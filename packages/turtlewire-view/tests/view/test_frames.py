@@ -3,8 +3,6 @@
 Rows of the tree, and one frame as another sees it.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

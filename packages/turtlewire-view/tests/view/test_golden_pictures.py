@@ -6,8 +6,6 @@ after a wanted change, and then look at them::
     TURTLEWIRE_RENEW_PICTURES=1 scripts/test tests/view/test_golden_pictures.py
 """
 
-from __future__ import annotations
-
 import base64
 import math
 import os

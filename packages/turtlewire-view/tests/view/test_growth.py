@@ -1,7 +1,5 @@
 """Pages, displays and topics that come and go leave nothing behind."""
 
-from __future__ import annotations
-
 import gc
 import json
 import threading

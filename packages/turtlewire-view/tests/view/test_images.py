@@ -1,7 +1,5 @@
 """Pixels of each encoding, and pictures that are none."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Interactive markers: the set that a server offers, its changes, and what users do with it."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

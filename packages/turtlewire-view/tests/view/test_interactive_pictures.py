@@ -1,7 +1,6 @@
 """Interactive markers in a real browser: handles are drawn, dragged, clicked, and have menus."""
 
 # ruff: noqa: F811 - fixtures are imported
-from __future__ import annotations
 
 import math
 

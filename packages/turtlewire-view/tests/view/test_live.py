@@ -3,8 +3,6 @@
 A parameter of a node: its text, or why there is none.
 """
 
-from __future__ import annotations
-
 import contextlib
 import queue
 import threading

@@ -1,7 +1,5 @@
 """Markers: all types and actions, lifetimes, and one line for what is wrong."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """The view in the output of a notebook's cell: pages of other origins embed it."""
 
-from __future__ import annotations
-
 import contextlib
 import sys
 import types

@@ -1,7 +1,5 @@
 """Where packages are found: named, around a URDF file, in the ament index."""
 
-from __future__ import annotations
-
 import argparse
 import io
 

@@ -1,7 +1,5 @@
 """Packets are read as they were written."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

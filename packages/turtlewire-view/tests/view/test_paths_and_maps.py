@@ -1,7 +1,5 @@
 """Paths, poses, odometry, covariances, polygons, points, ranges and maps."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The view of a kernel on another computer: behind an https proxy of a third origin."""
 
-from __future__ import annotations
-
 import contextlib
 import sys
 import types

@@ -1,7 +1,5 @@
 """A robot without a network: its joints are moved on the page."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """RobotModel, meshes and tools."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

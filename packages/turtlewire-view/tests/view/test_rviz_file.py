@@ -1,7 +1,5 @@
 """Views as .rviz files: RViz's own files are read, and what is written is read again."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 from dataclasses import replace

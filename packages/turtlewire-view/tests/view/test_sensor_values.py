@@ -1,7 +1,5 @@
 """Twists, wrenches, single numbers, cells, what a camera sees, and clouds of the old type."""
 
-from __future__ import annotations
-
 import math
 import struct
 

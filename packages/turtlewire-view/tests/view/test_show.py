@@ -1,7 +1,5 @@
 """`turtlewire.show`: a buffer, a robot, a connection or a bag in the view."""
 
-from __future__ import annotations
-
 import doctest
 import threading
 

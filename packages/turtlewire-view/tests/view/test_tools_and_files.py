@@ -1,7 +1,6 @@
 """Tools of the page, and views as files, in a real browser."""
 
 # ruff: noqa: F811 - fixtures are imported
-from __future__ import annotations
 
 import math
 

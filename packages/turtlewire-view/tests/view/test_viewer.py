@@ -1,7 +1,5 @@
 """The view over a real wire: what a page is told, and what it may ask for."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 

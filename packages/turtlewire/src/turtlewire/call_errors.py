@@ -8,11 +8,9 @@ AttributeErrors of names that people know from other libraries.
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable, Collection, Mapping, Sequence
 from types import FunctionType
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Any, NoReturn, TypeVar, cast
 
 __all__ = [
     "call_error",

@@ -8,11 +8,8 @@ follow the name; code calls `since` there.
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from enum import IntEnum
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = ["DEFAULT_DISTRO", "JAZZY", "KILTED", "LYRICAL", "Distro", "current_distro", "since"]
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import errno
 import os
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from turtlewire.call_errors import near_name
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = [
     "BAGS",

@@ -15,10 +15,8 @@ import os
 import signal
 import sys
 import threading
-from typing import TYPE_CHECKING, Any, ParamSpec, TextIO, TypeVar
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from collections.abc import Callable
+from typing import Any, ParamSpec, TextIO, TypeVar
 
 __all__ = ["open_output", "program"]
 

@@ -20,10 +20,10 @@ import os
 import socket
 import tempfile
 import threading
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
     from typing import Protocol
 
     from turtlewire.tf.buffer import Buffer

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import TracebackType
 from typing import TYPE_CHECKING, Protocol, cast
 
 from turtlewire.call_errors import explain_call
@@ -9,8 +11,6 @@ from turtlewire.plugins import declared
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Mapping
-    from types import TracebackType
 
     from typing_extensions import Self
 

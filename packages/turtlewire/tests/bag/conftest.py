@@ -1,7 +1,5 @@
 """The golden bags of a real rosbag2."""
 
-from __future__ import annotations
-
 import pytest
 from tests.bags import write_bag
 

@@ -1,7 +1,5 @@
 """Fields of a topic as arrays, against a plain loop over messages that `rosbags` decodes."""
 
-from __future__ import annotations
-
 import random
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cut, damaged and hostile files: what is whole is read, the rest is named, nothing crashes."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random

@@ -1,7 +1,5 @@
 """Parts of bags, merged bags and pieces hold the messages that they should hold."""
 
-from __future__ import annotations
-
 import os
 import random
 import shutil

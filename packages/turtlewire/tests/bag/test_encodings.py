@@ -3,8 +3,6 @@
 Messages that a bag defines otherwise than we do, as other releases of ROS 2 did.
 """
 
-from __future__ import annotations
-
 import copy
 import pickle
 import random

@@ -1,7 +1,5 @@
 """Attachments and metadata records in parts of bags, read and written by the library of MCAP."""
 
-from __future__ import annotations
-
 import pytest
 from mcap.reader import make_reader
 from mcap.writer import IndexType, Writer

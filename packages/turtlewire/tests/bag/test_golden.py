@@ -1,7 +1,5 @@
 """Bags that a real rosbag2 recorded give the messages, metadata and lookups that it gives."""
 
-from __future__ import annotations
-
 import gzip
 import json
 import shutil

@@ -1,7 +1,5 @@
 """Remains of a new folder from killed processes are removed; folders of living ones are not."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import threading

@@ -3,8 +3,6 @@
 Bags that other libraries write are read right, and their transforms end up in a buffer.
 """
 
-from __future__ import annotations
-
 import sqlite3
 
 import pytest

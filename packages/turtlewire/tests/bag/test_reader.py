@@ -1,7 +1,5 @@
 """Choosing messages by topic, type and time; bags that are not there or are something else."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """The compiled core and plain Python read the same messages, and convert them to the same bytes."""
 
-from __future__ import annotations
-
 import random
 import struct
 

@@ -1,7 +1,5 @@
 """The native walk over a chunk's records and its plain twin do the same, whatever the bytes."""
 
-from __future__ import annotations
-
 import random
 import struct
 

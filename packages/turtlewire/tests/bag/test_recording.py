@@ -1,7 +1,5 @@
 """Messages that a recording keeps and loses at the limit of its cache."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

@@ -1,7 +1,5 @@
 """Bags that a crash or a full disk cut off: read, and repaired by `reindex`."""
 
-from __future__ import annotations
-
 import os
 import random
 from contextlib import suppress

@@ -3,8 +3,6 @@
 Bags of ROS 1, written by `rosbags`.
 """
 
-from __future__ import annotations
-
 import random
 from collections import defaultdict
 

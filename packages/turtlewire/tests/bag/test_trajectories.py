@@ -3,8 +3,6 @@
 The examples of the how-to pages about bags and trajectories, run.
 """
 
-from __future__ import annotations
-
 import doctest
 import re
 import shlex

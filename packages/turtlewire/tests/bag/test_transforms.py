@@ -1,7 +1,5 @@
 """The transforms of a bag in a buffer: windows, names, reports and faults."""
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

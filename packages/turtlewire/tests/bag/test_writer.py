@@ -1,7 +1,5 @@
 """Bags written here are read back as they were written, by us and by other libraries."""
 
-from __future__ import annotations
-
 import os
 import re
 import sqlite3

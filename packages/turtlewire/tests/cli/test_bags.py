@@ -1,7 +1,5 @@
 """`turtlewire bag tf`, `trajectory`, `compare` and `doctor` on bags and files."""
 
-from __future__ import annotations
-
 import io
 import json
 import os

@@ -3,8 +3,6 @@
 The tree of a buffer as text and JSON, and the command in pipes and terminals.
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

@@ -1,7 +1,5 @@
 """The `turtlewire` command line: help, version, wrong words and completion."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 from importlib.metadata import entry_points, version

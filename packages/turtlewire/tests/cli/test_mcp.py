@@ -1,7 +1,5 @@
 """`turtlewire mcp` in a process of its own, between the SDK's client and a turtlesim."""
 
-from __future__ import annotations
-
 import base64
 import contextlib
 import json

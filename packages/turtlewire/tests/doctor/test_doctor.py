@@ -1,7 +1,5 @@
 """Findings of the doctor on artificial graphs and traffic."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import math

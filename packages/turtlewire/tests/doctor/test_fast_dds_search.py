@@ -1,7 +1,5 @@
 """The transports of nodes on Fast DDS, announced and shared; tests/peers has real nodes."""
 
-from __future__ import annotations
-
 import os
 import select
 import socket

@@ -1,7 +1,5 @@
 """Gaps in the stamps of transforms: loss is found, and other patterns are not mistaken for it."""
 
-from __future__ import annotations
-
 import random
 import re
 import subprocess

@@ -3,8 +3,6 @@
 The laws of rigid motion.
 """
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Edge cases of the codec: accepted and rejected values, and the errors."""
 
-from __future__ import annotations
-
 import random
 
 import numpy as np

@@ -1,7 +1,5 @@
 """ROS 2's checks at assignment, asked for by check_fields=True or by the environment."""
 
-from __future__ import annotations
-
 import math
 from array import array
 

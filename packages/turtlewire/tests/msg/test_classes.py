@@ -1,7 +1,5 @@
 """Message, service and action classes as ROS 2's generator makes them."""
 
-from __future__ import annotations
-
 import copy
 import os
 import pickle

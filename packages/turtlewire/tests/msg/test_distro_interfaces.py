@@ -7,8 +7,6 @@ Those that come with us, those of prefixes, those of generated packages, and non
 The cost of imports in modules: heavy modules are imported only when they are needed.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The examples of docs/interfaces.md, run."""
 
-from __future__ import annotations
-
 import doctest
 import re
 import subprocess

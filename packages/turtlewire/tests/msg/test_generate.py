@@ -1,7 +1,5 @@
 """A user's own interface package becomes Python modules: no compiler, no import hook."""
 
-from __future__ import annotations
-
 import importlib
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """Bytes, defaults, fields and hashes of a real ROS 2 Jazzy."""
 
-from __future__ import annotations
-
 import math
 
 from turtlewire import msg

@@ -1,7 +1,5 @@
 """Messages as JSON, and back."""
 
-from __future__ import annotations
-
 import json
 import math
 

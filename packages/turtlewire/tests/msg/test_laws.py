@@ -3,8 +3,6 @@
 Round trip, and the same bytes as two other implementations write.
 """
 
-from __future__ import annotations
-
 import warnings
 from array import array
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 Interfaces that are given as .idl files.
 """
 
-from __future__ import annotations
-
 import pytest
 from rosbags.typesys import get_types_from_idl, get_types_from_msg
 

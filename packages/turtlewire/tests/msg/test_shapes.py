@@ -4,8 +4,6 @@ Texts of our own with the same constructs; rosbags reads them, too, and is the o
 and of bytes.
 """
 
-from __future__ import annotations
-
 import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 

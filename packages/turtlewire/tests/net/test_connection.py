@@ -1,7 +1,5 @@
 """Topics and transforms of a network without ROS's names."""
 
-from __future__ import annotations
-
 import asyncio
 import gc
 import threading

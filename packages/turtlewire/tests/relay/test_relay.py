@@ -1,7 +1,5 @@
 """`turtlewire relay` as a separate process, between two networks that this process is in."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from contextlib import contextmanager

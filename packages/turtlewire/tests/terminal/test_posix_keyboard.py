@@ -1,7 +1,5 @@
 """Keys of a pseudo terminal: byte by byte, within a time, and after the end."""
 
-from __future__ import annotations
-
 import os
 import sys
 import threading

@@ -1,7 +1,5 @@
 """Signals that are acted on while the main thread waits."""
 
-from __future__ import annotations
-
 import signal
 import sys
 import threading

@@ -7,14 +7,13 @@ from __future__ import annotations
 
 import math
 import random
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import pytest
 from tests.needs import COMPILED_CORE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import turtlewire
 
 TICK = 1_953_125  # ns; 1/512 s, which doubles hold exactly

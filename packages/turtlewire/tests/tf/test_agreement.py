@@ -7,6 +7,7 @@ import math
 import random
 import secrets
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,8 +22,6 @@ from turtlewire.geometry import quaternions
 from turtlewire.tf import faults, plain
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import turtlewire
 
 DEBIAN = "/usr/bin/python3"

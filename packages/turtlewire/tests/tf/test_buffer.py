@@ -15,6 +15,7 @@ import sys
 import threading
 import time
 import weakref
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,8 +26,6 @@ from tests.programs import run_python
 from turtlewire import errors, msg
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import turtlewire
 
 SECOND = 1_000_000_000

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import inspect
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 
 import turtlewire
 from turtlewire.call_errors import call_error
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 ALL_OF_LOOKUP = (
     "target_frame, source_frame, stamp_ns, timeout_ns, extrapolate_ns, fixed_frame, target_stamp_ns"

@@ -1,7 +1,5 @@
 """Times as datetime64, wherever a stamp is."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

@@ -3,8 +3,6 @@
 Names for publishers, from a graph that learns them late.
 """
 
-from __future__ import annotations
-
 import queue
 import threading
 

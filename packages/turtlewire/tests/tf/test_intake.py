@@ -4,8 +4,6 @@ From the wire into the compiled core: on Cyclone's receiving thread without Pyth
 channel in batches.
 """
 
-from __future__ import annotations
-
 import itertools
 import sys
 import threading

@@ -3,8 +3,6 @@
 Data arrive without anybody spinning, and no message object is ever made.
 """
 
-from __future__ import annotations
-
 import gc
 import math
 import os

@@ -3,8 +3,6 @@
 Nothing is used after its end.
 """
 
-from __future__ import annotations
-
 import os
 
 import pytest

@@ -1,7 +1,5 @@
 """Operators, containers, pickles and shortcuts of buffers and transforms, on both cores."""
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import pickle

@@ -1,7 +1,5 @@
 """Random trajectories, and their equivalents in evo."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Trajectories survive files, to the nanosecond; evo reads what we write; wrong files are named."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Alignment, APE and RPE agree with evo."""
 
-from __future__ import annotations
-
 import functools
 import os
 import subprocess

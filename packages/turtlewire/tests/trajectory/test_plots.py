@@ -1,7 +1,5 @@
 """Plots are whole SVG documents, show what they are given, and draw nothing across gaps."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import struct

@@ -1,7 +1,5 @@
 """Trajectories out of a buffer: the right times, and no pose where there are no data."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -4,8 +4,6 @@ Origins and axes are drawn from a seeded generator where a real robot would have
 wrong sign or order of rotations must not cancel out.
 """
 
-from __future__ import annotations
-
 import random
 
 import pytest

@@ -1,7 +1,5 @@
 """JointStates to TFMessages, natively and in plain Python."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

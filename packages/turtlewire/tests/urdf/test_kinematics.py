@@ -1,7 +1,5 @@
 """Forward kinematics: against yourdfpy, and laws that hold for every robot."""
 
-from __future__ import annotations
-
 import io
 import pickle
 import re

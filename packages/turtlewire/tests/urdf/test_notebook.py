@@ -1,7 +1,5 @@
 """The examples of the how-to page about URDF; a `text` block is the previous block's output."""
 
-from __future__ import annotations
-
 import doctest
 import re
 import sys

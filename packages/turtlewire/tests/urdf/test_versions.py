@@ -1,7 +1,5 @@
 """What versions 1.1 and 1.2 of URDF add, which only Lyrical reads."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """Files as the server sends them: compressed, and not at all to a browser that has them."""
 
-from __future__ import annotations
-
 import gzip
 import http.client
 import os

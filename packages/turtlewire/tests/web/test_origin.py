@@ -1,7 +1,5 @@
 """Hosts and origins that are allowed, on this computer and behind a proxy."""
 
-from __future__ import annotations
-
 import pytest
 
 from turtlewire.web.origin import proxied_refusal, refusal

@@ -1,7 +1,5 @@
 """Contexts on Cyclone DDS; some modules have a `context` of their own."""
 
-from __future__ import annotations
-
 import pytest
 
 from turtlewire import msg

@@ -1,7 +1,5 @@
 """The counters of an event between two takes."""
 
-from __future__ import annotations
-
 from turtlewire.wire.base import EventKind, EventStatus
 from turtlewire.wire.events import StatusEvent
 

@@ -1,7 +1,5 @@
 """Services with Fast DDS, without a node on it; tests/peers has real ones."""
 
-from __future__ import annotations
-
 import ctypes
 import socket
 import struct

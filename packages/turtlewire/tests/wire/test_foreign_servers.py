@@ -1,7 +1,5 @@
 """Servers that would misread our requests get none; tests/peers has real ones."""
 
-from __future__ import annotations
-
 import pytest
 
 from turtlewire.errors import UncallableServiceError

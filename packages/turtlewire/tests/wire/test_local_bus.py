@@ -1,7 +1,5 @@
 """The in-process middleware compares an endpoint only with endpoints of the same topic."""
 
-from __future__ import annotations
-
 import pytest
 
 from turtlewire.wire import open_context

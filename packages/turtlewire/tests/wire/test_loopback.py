@@ -1,7 +1,5 @@
 """The sockets at which a middleware receives are bound to the loopback interface."""
 
-from __future__ import annotations
-
 import socket
 import sys
 

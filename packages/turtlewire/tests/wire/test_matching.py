@@ -1,7 +1,5 @@
 """Which publishers and subscriptions a middleware does not connect, and why."""
 
-from __future__ import annotations
-
 import pytest
 
 from turtlewire.wire import conflicts

@@ -1,7 +1,5 @@
 """Processes of this host are counted by their ports."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import time

@@ -1,7 +1,5 @@
 """Warnings of the wire: each once, and bounded memory for which were said."""
 
-from __future__ import annotations
-
 import io
 import sys
 

@@ -1,7 +1,5 @@
 """The 16 bytes in front of requests and responses, as a real rmw_cyclonedds writes them."""
 
-from __future__ import annotations
-
 import json
 import threading
 

@@ -6,14 +6,13 @@ import ast
 import operator
 import re
 import shlex
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from turtlewire_colcon.cmake.conditions import CMakeCondition, note_match
 from turtlewire_colcon.cmake.syntax import CMakeArgument, CMakeError, parse_keywords
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter
 
 __all__ = ["BASICS", "configured"]

@@ -5,13 +5,12 @@ from __future__ import annotations
 import operator
 import os
 import re
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 from turtlewire_colcon.cmake.syntax import CMakeArgument, CMakeError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
-
     from turtlewire_colcon.cmake.plan import Plan
     from turtlewire_colcon.cmake.syntax import SourcePosition
 

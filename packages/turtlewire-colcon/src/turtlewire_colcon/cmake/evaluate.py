@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from turtlewire_colcon.cmake.ament import AMENT, OWN_PARTS, XACRO
@@ -20,7 +21,6 @@ from turtlewire_colcon.package_lookup import PackageLookup
 from turtlewire_ros.manifest import read_manifest
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
     from pathlib import Path
 
 __all__ = ["evaluate_package"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 from shutil import copyfile, copytree
 from typing import TYPE_CHECKING
@@ -11,8 +12,6 @@ from turtlewire_colcon.cmake.basics import configured
 from turtlewire_colcon.cmake.syntax import CMakeError, parse_keywords
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire_colcon.cmake.interpreter import ExpandedCommand, Handler, Interpreter
 
 __all__ = ["FILES"]

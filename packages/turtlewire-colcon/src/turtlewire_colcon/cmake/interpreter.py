@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -21,8 +22,6 @@ from turtlewire_colcon.cmake.syntax import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
-
     from turtlewire_colcon.cmake.plan import Plan
     from turtlewire_colcon.cmake.syntax import Node
     from turtlewire_colcon.package_lookup import PackageLookup

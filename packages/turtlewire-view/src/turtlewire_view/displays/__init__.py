@@ -27,11 +27,10 @@ module             contents
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
-
     from turtlewire_view.displays.content import Display
 
 __all__ = ["display_for", "display_types", "displays_of", "further_kinds"]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from turtlewire_view.displays.content import (
     Content,
@@ -17,9 +18,6 @@ from turtlewire_view.displays.content import (
 )
 from turtlewire_view.displays.image import CompressedImageDisplay, ImageDisplay
 from turtlewire_view.displays.numeric import LARGEST
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
 
 __all__ = [
     "CAMERA_INFO",

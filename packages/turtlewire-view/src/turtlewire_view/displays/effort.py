@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
@@ -20,8 +21,6 @@ from turtlewire_view.displays.content import (
 from turtlewire_view.displays.points import rainbow
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from turtlewire.urdf.model import Joint
 
 __all__ = ["EffortDisplay"]

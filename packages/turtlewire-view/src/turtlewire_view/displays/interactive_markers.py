@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from itertools import count
 from typing import TYPE_CHECKING, Any
@@ -22,8 +23,6 @@ from turtlewire_view.displays.marker_shapes import marker_shape
 from turtlewire_view.displays.numeric import LARGEST, finite_pose, pose_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     from turtlewire_view.displays.marker_shapes import MarkerShape
     from turtlewire_view.package_folders import PackageFolders
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from itertools import count
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -19,8 +20,6 @@ from turtlewire_view.displays.content import (
 from turtlewire_view.displays.marker_shapes import marker_shape
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
     from numpy.typing import NDArray
 
     from turtlewire_view.displays.marker_shapes import MarkerShape

@@ -7,8 +7,9 @@ AccelStamped, WrenchStamped.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from itertools import count
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,9 +24,6 @@ from turtlewire_view.displays.content import (
 )
 from turtlewire_view.displays.numeric import LARGEST
 from turtlewire_view.displays.points import by_value
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = ["MeasurementDisplay", "TwistOrWrenchDisplay"]
 

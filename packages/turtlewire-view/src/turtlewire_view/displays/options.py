@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.web.commands import is_finite_number
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = ["DisplayOptions", "Option", "OptionError", "check_option", "option_table"]
 

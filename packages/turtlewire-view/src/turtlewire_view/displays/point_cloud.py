@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,8 +18,6 @@ from turtlewire_view.displays.numeric import anchored, picked_rows, rows_within,
 from turtlewire_view.displays.points import PointsDisplay, by_axis, by_value, flat, moved
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
-
     from numpy.typing import NDArray
 
 __all__ = ["OldPointCloudDisplay", "PointCloudDisplay"]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -25,9 +26,6 @@ from turtlewire_view.displays.numeric import (
     spread,
     warn_of_quaternions,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
 
 __all__ = ["OdometryDisplay", "PathDisplay", "PoseArrayDisplay", "PoseDisplay", "covariance_shape"]
 

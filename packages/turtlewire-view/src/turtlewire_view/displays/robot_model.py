@@ -8,6 +8,7 @@ none.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -27,8 +28,6 @@ from turtlewire_view.displays.content import (
 from turtlewire_view.meshes import file_of_package, mesh_address
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from turtlewire.urdf.model import Collision, Geometry, Inertial, Link, Material, Visual
     from turtlewire_view.package_folders import PackageFolders
 

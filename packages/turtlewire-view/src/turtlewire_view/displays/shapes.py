@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,9 +19,6 @@ from turtlewire_view.displays.content import (
     stamp_ns_of,
 )
 from turtlewire_view.displays.numeric import LARGEST, anchored, points_of, rows_within
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = [
     "CameraInfoDisplay",

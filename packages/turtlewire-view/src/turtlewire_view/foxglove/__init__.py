@@ -24,8 +24,6 @@ module              contents
 ==================  ===================================================================
 """
 
-from __future__ import annotations
-
 from turtlewire_view.foxglove.options import BridgeOptions
 from turtlewire_view.foxglove.server import FoxgloveServer
 

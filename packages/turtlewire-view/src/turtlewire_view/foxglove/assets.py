@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire_view.foxglove.options import Patterns
 
 __all__ = ["AssetError", "read_asset", "share_folder"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from struct import Struct
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -20,8 +21,6 @@ from turtlewire_view.foxglove.offers import Offers
 from turtlewire_view.foxglove.parameters import ParameterEvents, Parameters
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.web.loop_calls import LoopCalls
     from turtlewire.wire.base import Context, MessageInfo, Node
     from turtlewire_view.foxglove.options import BridgeOptions

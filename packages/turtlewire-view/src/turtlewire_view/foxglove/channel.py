@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire.qos import Durability, QoS, Reliability
 from turtlewire_view.foxglove.schemas import ENCODING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from turtlewire.wire.base import EndpointInfo, MessageInfo, Node, Subscription, TypeId
     from turtlewire_view.foxglove.outbox import Outbox
 

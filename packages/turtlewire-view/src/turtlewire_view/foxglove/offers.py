@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.errors import CdrError, InterfaceError, WireError
@@ -17,8 +18,6 @@ from turtlewire_view.foxglove.protocol import ENCODINGS
 from turtlewire_view.foxglove.schemas import ENCODING, schema
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import EndpointInfo, Node
     from turtlewire_view.foxglove.caller import Caller
     from turtlewire_view.foxglove.options import BridgeOptions

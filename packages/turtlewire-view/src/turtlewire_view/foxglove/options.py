@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from turtlewire_view.foxglove.protocol import CAPABILITIES
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 __all__ = ["ASSETS", "DEFAULT_PORT", "BridgeOptions", "Patterns"]
 

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple
 
 from turtlewire_view.foxglove.protocol import message_data
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = ["Outbox"]
 

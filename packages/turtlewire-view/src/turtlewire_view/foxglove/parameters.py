@@ -6,6 +6,7 @@ import asyncio
 import base64
 import binascii
 import math
+from collections.abc import Awaitable, Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import CdrError, WireError
@@ -17,8 +18,6 @@ from turtlewire.wire.report import warn_once
 from turtlewire_view.foxglove.caller import ServiceCallError
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, Iterable
-
     from turtlewire.web.loop_calls import LoopCalls
     from turtlewire.wire.base import MessageInfo, Node, Subscription
     from turtlewire_view.foxglove.caller import Caller

@@ -6,6 +6,7 @@ generated from the parsed definition.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
@@ -20,8 +21,6 @@ from turtlewire.msg.types import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.msg.definition import Constant, MessageDefinition
     from turtlewire.msg.types import AbstractType
 

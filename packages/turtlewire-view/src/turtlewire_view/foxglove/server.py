@@ -11,6 +11,7 @@ import contextlib
 import errno
 import re
 import time
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any, cast
 
 from turtlewire.terminal.printable import printable
@@ -24,7 +25,6 @@ from turtlewire_view.foxglove.session import FoxgloveSession
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Callable, Iterable, Iterator
 
     from websockets.asyncio.server import ServerConnection
     from websockets.datastructures import Headers

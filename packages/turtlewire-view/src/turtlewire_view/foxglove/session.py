@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.distro import current_distro
@@ -24,8 +25,6 @@ from turtlewire_view.foxglove.protocol import (
 from turtlewire_view.foxglove.publishing import Publishing
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Coroutine
-
     from turtlewire_view.foxglove.bridge import Bridge
     from turtlewire_view.foxglove.outbox import Outbox
     from turtlewire_view.foxglove.protocol import ServiceRequest

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.tf import svg
@@ -13,8 +14,6 @@ from turtlewire_view.graph.layout import TEXT_SIZE, make_layout
 from turtlewire_view.graph.picture import UNKNOWN, select
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.qos import QoS
     from turtlewire_view.graph.diagram import Arrow
     from turtlewire_view.graph.layout import Layout

@@ -7,6 +7,7 @@ import json
 import os
 import threading
 from pathlib import Path
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.web import Server
@@ -19,8 +20,6 @@ from turtlewire_view.graph.picture import Selection, read_graph, select
 from turtlewire_view.graph.session import GraphSession
 
 if TYPE_CHECKING:
-    from types import TracebackType
-
     from typing_extensions import Self
 
     from turtlewire.wire.base import Context

@@ -13,11 +13,9 @@ about the shape of a screen.
 from __future__ import annotations
 
 import heapq
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 __all__ = [
     "BOX_HEIGHT",

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.tf.drawing import BROWSER_FONTS, text_width
 from turtlewire_view.graph.layers import BOX_HEIGHT, GAP, find_places, make_layers
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from turtlewire_view.graph.diagram import Arrow, Box, Diagram
     from turtlewire_view.graph.layers import Layers, Place
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Iterable
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -11,8 +12,6 @@ from turtlewire.wire.conflicts import obstacles
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from turtlewire.wire.base import EndpointInfo, Graph
 
 __all__ = [

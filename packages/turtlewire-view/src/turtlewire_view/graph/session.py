@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from collections.abc import Callable
+from typing import Any, NamedTuple, Protocol
 
 from turtlewire.web import CommandSession
 from turtlewire.web.commands import CommandError, CommandReader
 from turtlewire_view.graph.picture import TOPICS, Selection
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = [
     "READER",

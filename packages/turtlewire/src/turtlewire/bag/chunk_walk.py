@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 from typing import TYPE_CHECKING, TypeVar
@@ -9,8 +10,6 @@ from typing import TYPE_CHECKING, TypeVar
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-
     from turtlewire.bag.mcap_reader import McapFile
     from turtlewire.bag.mcap_records import ChunkIndex
 

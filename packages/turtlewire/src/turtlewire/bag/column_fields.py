@@ -5,6 +5,7 @@ The compiled core runs the steps; the kinds are numbered as in ``native/feeds/co
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import IntEnum
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
@@ -24,8 +25,6 @@ from turtlewire.msg.values import UNIT_SIZE
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from turtlewire.msg.types import AbstractType
 
 __all__ = [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -26,8 +26,6 @@ from turtlewire.platforms import asked_core
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from numpy.typing import NDArray
 
     from turtlewire.bag.message import BagChannel, BagMessage

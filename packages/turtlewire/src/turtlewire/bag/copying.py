@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.bag.chunk_walk import one_ahead
@@ -12,8 +13,6 @@ from turtlewire.bag.storage import messages_of_blocks
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
     from turtlewire.bag.frame_renaming import FrameRenaming
     from turtlewire.bag.mcap_records import RawChunk
     from turtlewire.bag.message import BagMessage

@@ -7,6 +7,7 @@ The text of the type itself comes first. Each type that it uses follows once, af
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.metadata import full_type_name
@@ -22,8 +23,6 @@ from turtlewire.msg.registry import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.msg.registry import Definition
 
 __all__ = [

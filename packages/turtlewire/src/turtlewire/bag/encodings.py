@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from turtlewire.bag.metadata import TopicInfo
 
 __all__ = ["is_cdr", "is_decodable", "not_in_cdr"]

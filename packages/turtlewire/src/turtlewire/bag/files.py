@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import time
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.mcap_records import MAGIC
@@ -17,8 +18,6 @@ from turtlewire.distro import LYRICAL
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.bag.storage import StorageFile
 
 __all__ = ["file_name", "joined", "open_storage", "overlapping", "storage_files"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -14,8 +15,6 @@ from turtlewire.msg.types import AbstractNestedType, AbstractString, NamespacedT
 from turtlewire.msg.written_records import WrittenRecords
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.msg.definition import MessageDefinition
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections import deque
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.bag.frame_renaming import records_of
@@ -12,8 +13,6 @@ from turtlewire.errors import BagError
 from turtlewire.wire.qos import Durability, History
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
     from turtlewire.bag.message import BagMessage
     from turtlewire.bag.metadata import TopicInfo
     from turtlewire.bag.reader import Bag

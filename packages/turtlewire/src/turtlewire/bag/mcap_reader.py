@@ -12,6 +12,7 @@ import os
 import struct
 import sys
 import zlib
+from collections.abc import Container, Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import decompress
@@ -30,8 +31,6 @@ from turtlewire.bag.record_messages import mcap_messages
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterator
-
     from turtlewire.bag.record_messages import RawMessage
 
 __all__ = ["McapFile", "forget_pages", "map_file"]

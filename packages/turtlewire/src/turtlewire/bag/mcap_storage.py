@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Container, Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -15,8 +16,6 @@ from turtlewire.bag.storage import Extent, add_extent, class_of_channel, extents
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Container, Iterator
-
     from turtlewire.bag.mcap_records import ChunkIndex
     from turtlewire.bag.message import BagMessage
     from turtlewire.bag.record_messages import RawMessage

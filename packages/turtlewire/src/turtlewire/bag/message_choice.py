@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.bag.metadata import full_type_name
 from turtlewire.tf.datetimes import as_nanoseconds
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable
-
     from turtlewire.bag.metadata import BagMetadata
     from turtlewire.tf.datetimes import Stamp
 

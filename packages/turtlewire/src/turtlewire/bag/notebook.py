@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.times import date_text
 from turtlewire.tf.notebook import MOST_ROWS, counted, html_table, html_text
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from turtlewire.bag.metadata import BagMetadata
 
 __all__ = ["bag_html"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING
@@ -14,8 +15,6 @@ from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.wire.names import validate_full_topic_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
     from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.metadata import TopicInfo
     from turtlewire.bag.reader import Bag

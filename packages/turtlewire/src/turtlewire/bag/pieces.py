@@ -10,14 +10,13 @@ import signal
 import sqlite3
 import sys
 import threading
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.bag.writer import BagWriter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-
     from turtlewire.bag.extra_records import ExtraRecord
     from turtlewire.bag.mcap_records import RawChunk
     from turtlewire.bag.message import BagMessage

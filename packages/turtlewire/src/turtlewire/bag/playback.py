@@ -5,11 +5,10 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from turtlewire.bag.message import BagMessage
 
 __all__ = ["PlayClock", "ReadAhead"]

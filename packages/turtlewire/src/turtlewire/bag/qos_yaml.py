@@ -6,6 +6,7 @@ a profile decides which of the two it uses, as in rosbag2.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import yaml
@@ -14,7 +15,6 @@ from turtlewire.errors import BagError
 from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, QoS, Reliability
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
     from enum import IntEnum
 
 __all__ = ["load_yaml", "profiles_from_yaml", "profiles_to_text", "qos_to_yaml"]

@@ -7,6 +7,8 @@ import os
 import shutil
 import tempfile
 import weakref
+from collections.abc import Callable, Iterable, Iterator
+from types import TracebackType
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import unpack_file, unpacked
@@ -26,9 +28,6 @@ from turtlewire.errors import BagError, InterfaceError
 from turtlewire.path_arguments import near_path, path_text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-    from types import TracebackType
-
     from typing_extensions import Self
 
     from turtlewire.bag.columns import Columns

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable, Container
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.mcap_records import OPCODE_AND_LENGTH, Op
 from turtlewire.platforms import asked_core
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Container
-
     _Split = Callable[[bytes | memoryview, int, Container[int] | None, "list[RawMessage]"], int]
 
 __all__ = [

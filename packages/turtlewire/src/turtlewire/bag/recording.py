@@ -5,13 +5,12 @@ from __future__ import annotations
 import sqlite3
 import threading
 from collections import Counter, deque
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     from turtlewire.bag.writer import BagWriter
 
 __all__ = ["Recording", "RecordingStatus"]

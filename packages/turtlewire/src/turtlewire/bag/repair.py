@@ -6,6 +6,7 @@ Other programs cannot read an MCAP file without its end, or a truncated database
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -20,8 +21,6 @@ from turtlewire.bag.sqlite_writer import SqliteWriter
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.bag.mcap_reader import McapFile
     from turtlewire.bag.metadata import BagMetadata
     from turtlewire.bag.sqlite_reader import SqliteFile

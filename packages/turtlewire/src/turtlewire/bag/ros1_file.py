@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import bz2
 import struct
+from collections.abc import Container, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -19,8 +20,6 @@ from turtlewire.bag.record_messages import ros1_fields, ros1_header, ros1_messag
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterator
-
     from turtlewire.bag.record_messages import RawMessage
 
 __all__ = ["MAGIC", "Connection", "Ros1File"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -17,8 +18,6 @@ from turtlewire.msg.registry import load_message
 from turtlewire.platforms import asked_core
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
-
     from turtlewire._native import Ros1ToCdr
     from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.record_messages import RawMessage

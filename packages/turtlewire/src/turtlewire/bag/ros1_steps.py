@@ -7,6 +7,7 @@ cover nearly all messages. `conversion_steps` returns None for the others, which
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
@@ -22,8 +23,6 @@ from turtlewire.msg.types import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from turtlewire.msg.definition import Field, MessageDefinition
     from turtlewire.msg.types import AbstractType
 

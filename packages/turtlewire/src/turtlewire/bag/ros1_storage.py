@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.message import channel_of_text
@@ -13,8 +14,6 @@ from turtlewire.errors import BagError
 from turtlewire.wire.qos import Durability, QoS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from turtlewire.bag.mcap_records import ChunkIndex
     from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.record_messages import RawMessage

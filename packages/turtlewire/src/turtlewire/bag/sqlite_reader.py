@@ -15,6 +15,7 @@ import mmap
 import os
 import sqlite3
 from collections import Counter
+from collections.abc import Collection, Generator, Iterator
 from contextlib import suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -26,8 +27,6 @@ from turtlewire.errors import BagError
 from turtlewire.platforms import asked_core
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Generator, Iterator
-
     from turtlewire._native import MessageTable
     from turtlewire.bag.metadata import BagMetadata
     from turtlewire.bag.record_messages import LoggedBytes, RawMessage

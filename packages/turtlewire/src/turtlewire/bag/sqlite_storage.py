@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Container, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -14,8 +15,6 @@ from turtlewire.bag.storage import class_of_channel, extents_of_messages
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Container, Iterator
-
     from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.record_messages import LoggedBytes, RawMessage
     from turtlewire.bag.storage import Extent, TransformTarget

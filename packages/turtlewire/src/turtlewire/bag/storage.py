@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
+from collections.abc import Callable, Container, Iterable, Iterator
 from operator import itemgetter
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
@@ -10,8 +11,6 @@ from turtlewire.bag.message import UndecodableType, channel_of, message_class
 from turtlewire.bag.written_types import written_type
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Container, Iterable, Iterator
-
     from turtlewire.bag.mcap_records import ChunkIndex, RawChunk
     from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.metadata import BagMetadata, TopicInfo

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +17,6 @@ from turtlewire.trajectory.stamps import find_gaps
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import struct
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import nullcontext
 from itertools import islice
 from typing import TYPE_CHECKING
@@ -23,8 +24,6 @@ from turtlewire.errors import BagError
 from turtlewire.tf.implementation import RecordWalk
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-
     from turtlewire.tf.datetimes import Stamp
     from turtlewire.tf.implementation import BaseBuffer
 

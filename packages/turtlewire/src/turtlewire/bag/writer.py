@@ -5,7 +5,9 @@ from __future__ import annotations
 import atexit
 import errno
 import os
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
@@ -41,9 +43,6 @@ from turtlewire.tf.datetimes import as_nanoseconds
 from turtlewire.tf.tf_topics import refuse_other_types
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
-    from types import TracebackType
-
     from typing_extensions import Self
 
     from turtlewire.bag.mcap_records import RawChunk, Schema

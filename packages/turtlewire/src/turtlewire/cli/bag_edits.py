@@ -6,6 +6,7 @@ import errno
 import json
 import os
 import sys
+from collections.abc import Callable
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,6 @@ from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable
 
     from turtlewire.bag import BagOptions, BagOverview, TopicOverview, WrittenBags
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+from collections.abc import Collection, Iterable, Iterator
 from textwrap import wrap
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,8 +15,6 @@ from turtlewire.tf.frame_tree import read_frame_tree
 from turtlewire.tf.tf_topics import TfTopics
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
-
     from turtlewire.tf.buffer import Buffer
     from turtlewire.tf.frame_tree import FrameTree
     from turtlewire.tf.links import Link

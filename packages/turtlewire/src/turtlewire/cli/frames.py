@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 from collections import deque
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from turtlewire import wire
@@ -23,8 +24,6 @@ from turtlewire.tf.tf_topics import as_options, of_first_robot, other_tf_topics
 from turtlewire.wire.environment import domain_id
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.cli.frame_picture import Picture
     from turtlewire.terminal.keyboard import Keyboard
     from turtlewire.tf.tf_topics import TfTopics

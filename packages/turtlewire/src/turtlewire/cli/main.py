@@ -7,6 +7,7 @@ import argparse
 import io
 import os
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.cli.bag_commands import add_bag_commands, what_to_do_with_bag
@@ -26,8 +27,6 @@ from turtlewire.terminal.parser import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from turtlewire.tf.tf_topics import TfTopics
 
 __all__ = ["main"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import warnings
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
@@ -12,8 +13,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.tf.buffer import Buffer
     from turtlewire.trajectory import Trajectory
 

@@ -8,6 +8,7 @@ own ports.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,8 +19,6 @@ from turtlewire.wire.names import fully_qualified_node_name
 from turtlewire.wire.qos import Reliability
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
     from turtlewire.doctor.fast_dds_search import Participant
     from turtlewire.wire.base import EndpointInfo, Graph
 

@@ -10,6 +10,7 @@ import os
 import selectors
 import socket
 import time
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, suppress
 from struct import Struct
 from typing import TYPE_CHECKING, NamedTuple
@@ -18,8 +19,6 @@ from turtlewire.doctor.network import GROUP, udp_ports
 from turtlewire.wire.cyclone.ports import ports_of, unicast_ports_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
     from typing_extensions import Self
 
 __all__ = [

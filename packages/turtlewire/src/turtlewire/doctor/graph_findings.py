@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from turtlewire.doctor.fast_dds_findings import fast_dds_findings
@@ -16,8 +17,6 @@ from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.services import ONE_MIDDLEWARE, advice
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from turtlewire.wire.base import EndpointInfo, ForeignServer, Graph
 
 __all__ = ["graph_findings", "owner_of"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from turtlewire.distro import Distro, current_distro
@@ -22,8 +23,6 @@ from turtlewire.wire.environment import (
 from turtlewire.wire.libddsc import find_libddsc
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     from turtlewire.wire.base import Graph
 
 __all__ = [

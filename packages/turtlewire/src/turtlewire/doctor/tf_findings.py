@@ -9,6 +9,7 @@ faster than it publishes (all steps nearly as long).
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from statistics import fmean, pvariance
 from typing import TYPE_CHECKING, NamedTuple
@@ -20,8 +21,6 @@ from turtlewire.tf.frame_tree import find_loops
 from turtlewire.tf.tf_topics import as_options, of_first_robot, other_tf_topics
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
     from turtlewire.doctor.tf_traffic import TfTraffic
     from turtlewire.tf.tf_topics import TfTopics
     from turtlewire.wire.base import Graph

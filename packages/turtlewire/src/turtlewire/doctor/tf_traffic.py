@@ -6,6 +6,7 @@ import math
 import threading
 import time
 from collections import Counter
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
@@ -19,8 +20,6 @@ from turtlewire.wire.names import fully_qualified_node_name
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from turtlewire.wire.base import Context, EndpointInfo, Graph, MessageInfo
 
 __all__ = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar, overload
@@ -12,8 +13,6 @@ from turtlewire.msg.classes import get_message, type_name
 from turtlewire.msg.message import Message
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.msg.values import Cdr
 
 __all__ = ["deserialize", "encode", "serialize"]

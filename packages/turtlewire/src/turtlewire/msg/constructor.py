@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.distro import LYRICAL, since
@@ -10,8 +11,6 @@ from turtlewire.msg.types import AbstractNestedType, Array, NamespacedType
 from turtlewire.msg.values import array_values, element_code, raw_name, scalar_default
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.msg.definition import Field, MessageDefinition
     from turtlewire.msg.message import Message
 

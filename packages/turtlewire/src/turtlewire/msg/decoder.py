@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import sys
 from array import array
+from collections.abc import Callable
 from math import gcd
 from struct import Struct
 from typing import TYPE_CHECKING, Any
@@ -26,8 +27,6 @@ from turtlewire.msg.types import (
 from turtlewire.msg.values import UNIT_SIZE, element_code, numpy_name, raw_name, text_of_units
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.message import Message
     from turtlewire.msg.types import AbstractType

@@ -10,6 +10,7 @@ lookup by the length so far gives it.
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from math import gcd
 from struct import Struct
 from typing import TYPE_CHECKING, Any
@@ -28,8 +29,6 @@ from turtlewire.msg.types import (
 from turtlewire.msg.values import UNIT_SIZE, element_code, raw_name, units_of_text
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractType
     from turtlewire.msg.values import Cdr

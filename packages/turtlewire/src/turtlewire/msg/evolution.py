@@ -12,6 +12,7 @@ ROS 1, each header had a ``seq``. One rule holds for all bags and for the networ
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -32,8 +33,6 @@ from turtlewire.msg.values import array_of_bytes, element_code, numpy_name, raw_
 from turtlewire.msg.written_records import WrittenRecords
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     from turtlewire.msg.definition import Field
     from turtlewire.msg.message import Message
     from turtlewire.msg.types import AbstractType

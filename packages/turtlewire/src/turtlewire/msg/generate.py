@@ -9,6 +9,7 @@ their stubs, and a copy of the definitions, from which the classes are created a
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from shutil import copyfile
 from typing import TYPE_CHECKING
 
@@ -33,7 +34,6 @@ from turtlewire.msg.types import (
 from turtlewire.msg.values import element_code, numpy_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
     from pathlib import Path
 
     from turtlewire.msg.definition import Field, MessageDefinition, ServiceDefinition

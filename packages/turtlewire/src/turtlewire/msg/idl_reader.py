@@ -7,7 +7,8 @@ IDL (unions, enums, maps) raise an error with the line.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from collections.abc import Mapping
+from typing import Any, ClassVar, NamedTuple
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.types import (
@@ -23,9 +24,6 @@ from turtlewire.msg.types import (
     UnboundedString,
     UnboundedWString,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 __all__ = [
     "BASIC_TYPES",

@@ -6,8 +6,9 @@ separates the parts of services and actions, ``#`` starts a comment (not within 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from keyword import iskeyword
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.definition import (
@@ -34,9 +35,6 @@ from turtlewire.msg.types import (
     UnboundedString,
     UnboundedWString,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = [
     "parse_action",

@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import sys
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.bundled import (
@@ -30,9 +30,6 @@ from turtlewire.msg.definition import (
 from turtlewire.msg.parser import parse_action, parse_message, parse_service
 from turtlewire.package_sources import source_hint
 from turtlewire.path_arguments import near_path, path_text
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = [
     "KINDS",

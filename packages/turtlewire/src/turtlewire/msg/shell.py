@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from types import ModuleType
-from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg.classes import get_interface_class, module_name
 from turtlewire.package_sources import explain_missing_modules
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = ["lazy_classes"]
 

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import sys
 from array import array
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Union
 
@@ -30,8 +31,6 @@ from turtlewire.msg.types import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from typing_extensions import Buffer
 
     from turtlewire.msg.types import AbstractType

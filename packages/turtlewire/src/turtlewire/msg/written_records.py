@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import CdrError
@@ -11,8 +12,6 @@ from turtlewire.msg.encoder import SIZES, make_encoder
 from turtlewire.msg.registry import load_message
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractString, AbstractType
 

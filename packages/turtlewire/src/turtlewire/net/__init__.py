@@ -9,8 +9,6 @@ module          contents
 ==============  ===================================================================
 """
 
-from __future__ import annotations
-
 from turtlewire.net.connection import Connection, connect
 from turtlewire.net.publisher import Publisher
 from turtlewire.net.subscription import Subscription

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import threading
+from collections.abc import Sequence
+from types import TracebackType
 from typing import TYPE_CHECKING, TypeVar
 
 from turtlewire import msg, wire
@@ -20,8 +22,6 @@ from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from types import TracebackType
     from typing import Protocol
 
     from typing_extensions import Self

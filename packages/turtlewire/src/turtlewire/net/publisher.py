@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
@@ -13,8 +14,6 @@ from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NA
 from turtlewire.wire.base import TypeId
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.tf.datetimes import Span
     from turtlewire.wire import base
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections import deque
+from collections.abc import Callable
+from types import TracebackType
 from typing import TYPE_CHECKING
 
 from turtlewire import msg
@@ -16,9 +18,6 @@ from turtlewire.wire.conflicts import warn_of_types
 from turtlewire.wire.qos import BEST_AVAILABLE_NS, Durability, QoS, Reliability, fit_subscription
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from types import TracebackType
-
     from typing_extensions import Self
 
     from turtlewire.wire import base

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 from turtlewire.tf.listener import TYPE_NAME
@@ -12,8 +13,6 @@ from turtlewire.wire.report import warn_once
 from .routes import ServiceRoute, TopicRoute, installed_hash, service_types
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from turtlewire.wire.base import EndpointInfo, Node
 
     from .side import Seen, Side

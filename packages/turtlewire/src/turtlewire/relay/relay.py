@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire import msg
@@ -15,8 +16,6 @@ from .direction import Direction, Ways
 from .side import Mark, Side
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .side import End
 
 __all__ = [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire import msg
@@ -13,8 +14,6 @@ from turtlewire.wire.qos import Durability, History, QoS, Reliability
 from turtlewire.wire.report import warn_once
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from turtlewire.wire.base import EndpointInfo, Node, Publisher, RequestId, Service, Subscription
 
     from .side import Side

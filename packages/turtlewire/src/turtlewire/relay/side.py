@@ -10,6 +10,7 @@ import secrets
 import threading
 import time
 import zlib
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.errors import WireError
@@ -18,8 +19,6 @@ from turtlewire.wire.environment import MAX_DOMAIN_ID
 from turtlewire.wire.report import warn_once
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from turtlewire.wire.base import EndpointInfo, Entity, Node, NodeInfo, Waitable
 
 __all__ = [

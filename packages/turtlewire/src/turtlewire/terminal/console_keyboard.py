@@ -7,12 +7,11 @@ import os
 import queue
 import sys
 import threading
+from collections.abc import Callable, Iterator
+from types import TracebackType
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from types import TracebackType
-
     from typing_extensions import Self
 
 __all__ = ["ENDING_SIGNALS", "ConsoleKeyboard", "foreground_terminal", "signals_for_this_thread"]

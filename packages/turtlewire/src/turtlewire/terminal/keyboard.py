@@ -3,8 +3,6 @@
 Both kinds give the bytes that a terminal sends.
 """
 
-from __future__ import annotations
-
 import sys
 
 if sys.platform == "win32":

@@ -9,12 +9,12 @@ import argparse
 import math
 import re
 import sys
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.terminal.suggestion import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
     from typing import NoReturn
 
 __all__ = [

@@ -9,12 +9,11 @@ import os
 import select
 import signal
 import sys
+from collections.abc import Iterator
+from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import TracebackType
-
     from typing_extensions import Self
 
 assert sys.platform != "win32"  # console_keyboard is for Windows

@@ -6,10 +6,7 @@ import contextlib
 import signal
 import socket
 import threading
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 
 __all__ = ["watched"]
 

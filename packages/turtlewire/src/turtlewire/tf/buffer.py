@@ -6,6 +6,7 @@ import errno
 import io
 import os
 import warnings
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.call_errors import hint_at
@@ -14,8 +15,6 @@ from turtlewire.tf.implementation import CORE, BaseBuffer, RecordWalk, Transform
 from turtlewire.wording import Wording, wording
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from numpy.typing import ArrayLike
     from typing_extensions import Self
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
-
     from turtlewire.tf import links as contents
     from turtlewire.tf.links import HasLinks
 

@@ -12,7 +12,9 @@ from __future__ import annotations
 
 import os
 import threading
+from collections.abc import Callable, Iterator
 from contextlib import suppress
+from types import TracebackType
 from typing import TYPE_CHECKING, NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -30,8 +32,6 @@ if TYPE_CHECKING or CORE == "native":
     from turtlewire._native import Intake
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from types import TracebackType
     from typing import Protocol
 
     from turtlewire.tf.publishers import Forgetful

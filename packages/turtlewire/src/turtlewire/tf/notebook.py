@@ -6,6 +6,7 @@ Tables have no colours of their own, so they are readable in light and dark note
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,6 @@ from turtlewire.tf.frame_tree import read_frame_tree
 from turtlewire.tf.tree_drawing import draw_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
     from typing import Protocol
 
     import numpy as np

@@ -9,14 +9,13 @@ from __future__ import annotations
 import re
 import threading
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
 from turtlewire.guarded import call_guarded
 from turtlewire.tf.links import links
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.tf.links import HasLinks
     from turtlewire.wire.base import Graph
 

@@ -6,6 +6,7 @@ below their parent, and subtrees are as close as possible.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from turtlewire.tf.drawing import (
@@ -19,8 +20,6 @@ from turtlewire.tf.drawing import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
     from turtlewire.tf.frame_tree import FrameLink, FrameTree
 
 __all__ = [

@@ -26,8 +26,6 @@ module         contents
 =============  =========================================================
 """
 
-from __future__ import annotations
-
 from turtlewire.trajectory.alignment import Alignment
 from turtlewire.trajectory.chart import Plot
 from turtlewire.trajectory.comparison import Comparison, compare

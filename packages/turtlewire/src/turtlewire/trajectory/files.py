@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Iterable, Sequence
 from decimal import Decimal, InvalidOperation
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -21,8 +22,6 @@ from turtlewire.path_arguments import BAGS, PICTURES, missing_file, path_text, r
 from turtlewire.trajectory.stamps import Gap, find_gaps
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
     from numpy.typing import NDArray
 
     Stamps = NDArray[np.int64]

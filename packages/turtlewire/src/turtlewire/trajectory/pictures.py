@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
@@ -13,7 +14,6 @@ from turtlewire.tf.drawing import text_width
 from turtlewire.tf.pdf import colour_operands, pdf_file, text_operators
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from xml.etree.ElementTree import Element
 
     from numpy.typing import NDArray

@@ -5,6 +5,7 @@ Lines end where data are missing: nothing is drawn across a gap.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -13,8 +14,6 @@ import numpy as np
 from turtlewire.trajectory.chart import COLOURS, GREY, Panel, Plot, page
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
-
     from numpy.typing import NDArray
 
     Numbers = NDArray[np.float64]

@@ -25,8 +25,6 @@ module              contents
 ==================  ==============================================================
 """
 
-from __future__ import annotations
-
 from turtlewire.errors import UrdfError
 from turtlewire.urdf.model import Joint, JointLimits, Link, Material, Mesh, Mimic, Pose
 from turtlewire.urdf.robot import Robot

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from turtlewire.distro import LYRICAL, since
@@ -23,8 +24,6 @@ from turtlewire.urdf.model import (
 from turtlewire.urdf.values import color_of, number_of, pose_of, vector_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from turtlewire.urdf.elements import Element
     from turtlewire.urdf.model import Geometry
 

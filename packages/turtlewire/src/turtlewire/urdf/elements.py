@@ -6,15 +6,12 @@ The version of a URDF is 1.0, and in Lyrical also 1.1 or 1.2, which add attribut
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 from xml.parsers import expat
 
 from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import UrdfError
 from turtlewire.urdf.faults import UrdfWarning
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = [
     "MAX_DEPTH",

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from turtlewire.errors import UrdfError
 from turtlewire.terminal.printable import printable
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = ["XACRO_LEFT", "UrdfWarning", "left_out", "log_lines", "reported"]
 

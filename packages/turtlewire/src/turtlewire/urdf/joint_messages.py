@@ -8,6 +8,7 @@ TFMessage in which only stamps and poses have to be filled in.
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.errors import CdrError
@@ -15,8 +16,6 @@ from turtlewire.platforms import asked_core
 from turtlewire.urdf.joint_model import joint_constants
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from turtlewire._native import JointFrames, JointRelay
     from turtlewire.urdf.model import Description, Joint
 

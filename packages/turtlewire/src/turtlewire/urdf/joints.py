@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, cast
@@ -21,7 +22,6 @@ from turtlewire.urdf.model import (
 from turtlewire.urdf.values import number_of, pose_of, vector_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from typing import TypeVar
 
     from turtlewire.urdf.elements import Element

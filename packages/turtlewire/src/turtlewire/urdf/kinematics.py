@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -13,8 +14,6 @@ from turtlewire.urdf.joint_model import NUMBER_OF_CONSTANTS, joint_constants
 from turtlewire.urdf.joints import followers_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from numpy.typing import ArrayLike, NDArray
 
     from turtlewire.urdf.model import Description

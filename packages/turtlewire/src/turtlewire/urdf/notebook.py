@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,8 +13,6 @@ from turtlewire.tf.notebook import MOST_ROWS, counted, html_table, html_text, pr
 from turtlewire.urdf.kinematics import Kinematics
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
     from turtlewire.urdf.model import Description, Joint
 
 __all__ = ["robot_html"]

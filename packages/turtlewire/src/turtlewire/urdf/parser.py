@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -13,8 +14,6 @@ from turtlewire.urdf.joints import read_joint
 from turtlewire.urdf.model import Description, Material
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.urdf.elements import Element
     from turtlewire.urdf.model import Joint, Link, Visual
 

@@ -18,8 +18,6 @@ The folder ``kit`` holds the common parts of the pages: palette and base style, 
 switch of the letter keys. `Server` serves it below ``/kit/``, and the lesson has a copy.
 """
 
-from __future__ import annotations
-
 from turtlewire.web.commands import CommandSession, PageSession
 from turtlewire.web.files import WebContent
 from turtlewire.web.server import Server

@@ -10,10 +10,7 @@ import contextlib
 import socket
 import struct
 import sys
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable
 
 __all__ = ["interface_addresses", "invite", "lan_addresses", "new_token", "path_below", "qr_code"]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,6 @@ from turtlewire.web.server_thread import ServerThread, listening_socket, until_o
 if TYPE_CHECKING:
     import asyncio
     import socket
-    from collections.abc import Callable, Mapping
 
     from websockets.asyncio.server import ServerConnection
     from websockets.http11 import Request, Response

@@ -7,12 +7,12 @@ import errno
 import os
 import socket
 import threading
+from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Any, cast
 
 if TYPE_CHECKING:
     import asyncio
     import logging
-    from collections.abc import Callable, Coroutine
     from contextlib import AbstractContextManager
 
     from websockets.asyncio.server import Server, ServerConnection

@@ -14,6 +14,7 @@ owner after a :class:`WaitSet` reports them ready.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
 from .records import (
@@ -29,8 +30,6 @@ from .records import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .encapsulation import Cdr
     from .qos import QoS
 

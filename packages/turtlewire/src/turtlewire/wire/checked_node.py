@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from abc import abstractmethod
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -14,8 +15,6 @@ from .base import Node
 from .names import NameFault, validate_full_topic_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from .base import (
         Client,
         MessageInfo,

@@ -8,6 +8,7 @@ also use the same type.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import names
@@ -16,8 +17,6 @@ from .qos import INFINITE_NS, Durability, Liveliness, Reliability
 from .report import warn_once
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from .base import EndpointInfo
     from .qos import QoS
 

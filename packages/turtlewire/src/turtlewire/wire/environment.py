@@ -14,18 +14,16 @@ import contextlib
 import os
 import re
 import sys
+from collections.abc import Iterator, Mapping
 from enum import Enum
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from turtlewire.errors import WireError
 from turtlewire.platforms import in_browser
 
 from .libddsc import find_libddsc
 from .report import warn_once
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
 
 __all__ = [
     "IN_THE_CLEAR",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable, Iterable
 from struct import Struct
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -20,8 +21,6 @@ from .base import EndpointInfo, Graph, TypeId
 from .qos import fit_publisher, fit_subscription
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from .base import Context
     from .qos import QoS
 

@@ -10,13 +10,10 @@ from __future__ import annotations
 import os
 import socket
 import sys
+from collections.abc import Container, Iterable
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 from turtlewire.wire.report import warn_once
-
-if TYPE_CHECKING:
-    from collections.abc import Container, Iterable
 
 __all__ = ["ANY_PORT", "bind_to_loopback", "open_sockets", "ports_of_sockets"]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
 from . import timeouts
@@ -11,8 +12,6 @@ from .events import EventWatcher, StatusEvent
 from .services import TopicClient, TopicService
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .base import Waitable
 
 __all__ = ["QueueWaitSet", "Queued", "Watcher", "call_when_queued"]

@@ -10,14 +10,13 @@ import itertools
 import threading
 import time
 from collections import deque
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Protocol
 
 from turtlewire.guarded import call_guarded
 from turtlewire.wake_up import WakeUp
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from .base import MessageInfo
 
 __all__ = [

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .qos import QoS
 
 __all__ = [

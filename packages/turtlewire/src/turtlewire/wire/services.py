@@ -9,6 +9,7 @@ back, and a client drops replies to others.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterable
 from struct import Struct
 from typing import TYPE_CHECKING
 
@@ -18,8 +19,6 @@ from .base import Client, RequestId, Service
 from .report import warn_once
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from .base import Graph, Publisher, Subscription
 
 __all__ = [

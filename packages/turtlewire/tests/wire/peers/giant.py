@@ -1,7 +1,5 @@
 """Publishes messages of many megabytes until it is killed; says so before each of them."""
 
-from __future__ import annotations
-
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS

@@ -2,8 +2,6 @@
 there are.
 """
 
-from __future__ import annotations
-
 import sys
 
 from turtlewire.wire import open_context

@@ -3,8 +3,6 @@
 Arguments: own address, the session's address, the ports at which it may receive.
 """
 
-from __future__ import annotations
-
 import json
 import socket
 import sys

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -27,8 +28,6 @@ from turtlewire.wire.qos import QoS
 from turtlewire.wire.services import require_callable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.cli.assistant.network import Network
     from turtlewire.cli.assistant.permissions import Permissions
     from turtlewire.wire.base import Client, Publisher

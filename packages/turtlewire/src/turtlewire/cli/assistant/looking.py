@@ -6,6 +6,7 @@ import asyncio
 import json
 import math
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
@@ -21,8 +22,6 @@ from turtlewire.tf.listener import NOTHING_RECEIVED, TransformListener
 from turtlewire.wake_up import LoopWakeUp
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.cli.assistant.network import Network
     from turtlewire.cli.assistant.permissions import Permissions
 

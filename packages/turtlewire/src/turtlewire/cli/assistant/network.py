@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable, Iterable
+from types import TracebackType
 from typing import TYPE_CHECKING
 
 import anyio
@@ -15,9 +17,6 @@ from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.wake_up import LoopWakeUp
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-    from types import TracebackType
-
     from typing_extensions import Self
 
 __all__ = ["Network", "unknown"]

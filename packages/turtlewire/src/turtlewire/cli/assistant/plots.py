@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import time
+from collections.abc import AsyncIterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,8 +16,6 @@ from turtlewire.trajectory.chart import COLOURS, Panel, page
 from turtlewire.trajectory.pictures import png_of
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator
-
     from turtlewire.msg import Message
 
 __all__ = ["Series", "number_at"]

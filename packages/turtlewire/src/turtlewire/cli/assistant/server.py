@@ -6,6 +6,7 @@ import functools
 import os
 import signal
 import threading
+from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
@@ -21,8 +22,6 @@ from turtlewire.errors import TurtlewireError
 from turtlewire.terminal.printable import printable_lines
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable
-
     from turtlewire.cli.assistant.network import Network
     from turtlewire.cli.assistant.permissions import Permissions
 

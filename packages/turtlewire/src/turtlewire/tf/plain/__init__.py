@@ -25,8 +25,6 @@ module                 contents
 =====================  ==================================================
 """
 
-from __future__ import annotations
-
 from turtlewire.tf.plain.buffer import Buffer
 from turtlewire.tf.plain.record_walk import RecordWalk
 from turtlewire.tf.plain.transform import Transform

@@ -6,6 +6,7 @@ The compiled core documents them.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -19,8 +20,6 @@ from turtlewire.tf.plain.failure import Failure
 from turtlewire.tf.plain.status import LookupStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 

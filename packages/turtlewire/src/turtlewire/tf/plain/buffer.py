@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from turtlewire.call_errors import explain_calls
 from turtlewire.errors import TransformException
@@ -18,9 +19,6 @@ from turtlewire.tf.plain.shared_tree import SharedTree
 from turtlewire.tf.plain.status import LookupStatus
 from turtlewire.tf.plain.transform import Transform
 from turtlewire.tf.plain.tree import NO_PARENT
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _Answer = TypeVar("_Answer")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
@@ -10,8 +11,6 @@ from turtlewire import errors
 from turtlewire.tf.plain.status import LookupStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
     from turtlewire.geometry.poses import Pose
     from turtlewire.tf.plain.link import LinkSamples
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import CdrError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from typing import Protocol
 
     class TakesMessages(Protocol):

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from turtlewire.tf.plain.failure import seconds
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from turtlewire.tf.plain.link import LinkSamples
 
 

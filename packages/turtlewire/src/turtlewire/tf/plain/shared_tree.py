@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 import time
+from collections.abc import Callable
 from functools import partial
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, TypeVar
@@ -18,8 +19,6 @@ from turtlewire.tf.plain.tree import Tree
 from turtlewire.wake_up import WakeUp
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.errors import TransformException
 
 _Answer = TypeVar("_Answer")

@@ -1,7 +1,5 @@
 """The outcomes of a lookup."""
 
-from __future__ import annotations
-
 from enum import IntEnum
 
 __all__ = ["LookupStatus"]

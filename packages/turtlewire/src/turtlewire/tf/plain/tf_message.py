@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import CdrError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from turtlewire.geometry.poses import Pose
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, TypeAlias
 
 from turtlewire.geometry.poses import IDENTITY, Pose
@@ -22,8 +23,6 @@ from turtlewire.tf.plain.rules import ENGINE
 from turtlewire.tf.plain.status import LookupStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from turtlewire.geometry.quaternions import Quaternion
 
 MAX_GRAPH_DEPTH = 1000

@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import os
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
@@ -17,8 +18,6 @@ from .node import CycloneNode
 from .waiting import CycloneWaitSet, readable_part
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import Waitable, WaitSet
 
 __all__ = ["CycloneContext"]

@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import os
 import threading
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
@@ -21,8 +22,6 @@ from . import library as dds
 from .qos import policy_kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     from turtlewire.wire.base import Event, TypeId
     from turtlewire.wire.qos import QoS
 

@@ -12,6 +12,7 @@ import contextlib
 import os
 import sys
 import threading
+from collections.abc import Iterator
 from struct import Struct
 from typing import TYPE_CHECKING
 
@@ -24,8 +25,6 @@ from .native import NATIVE
 from .sertype import sertype_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from .endpoint import Endpoint, EndpointSpec
     from .participant import Participant
 

@@ -9,6 +9,7 @@ import ctypes
 import threading
 import time
 from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from turtlewire.errors import CdrError
@@ -35,8 +36,6 @@ from .silent_peers import PATIENCE_NS, Questions, SilentPeers
 from .subscription import CycloneSubscription
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-
     from .announcer import Announcer
     from .participant import Participant
     from .reader import CycloneReaderThread

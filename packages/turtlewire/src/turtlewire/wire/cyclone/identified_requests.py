@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from .servers import Servers, is_fast_dds
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from .publisher import CyclonePublisher
     from .servers import MatchedEndpoint
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from . import library as dds
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire._native import Cyclone
     from turtlewire.wire.base import Sink
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import ctypes
 import sys
+from collections.abc import Callable
 from ctypes import (
     POINTER,
     c_bool,
@@ -25,14 +26,11 @@ from ctypes import (
     c_uint64,
     c_void_p,
 )
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from turtlewire.errors import WireError
 from turtlewire.wire.libddsc import Abi, Libddsc, find_libddsc
 from turtlewire.wire.report import warn_once
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 ANY_STATE = 127
 WHOLE_LIBRARY = 0x7FFF_0100  # what all domains of the process belong to

@@ -16,13 +16,10 @@ import select
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING
 
 from turtlewire.wire.report import warn
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = ["CycloneLog", "LineLimiter", "explain"]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from turtlewire.platforms import asked_core
@@ -10,8 +11,6 @@ from turtlewire.platforms import asked_core
 from . import library as dds
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire._native import Cyclone
 
 __all__ = ["NATIVE", "address_of"]

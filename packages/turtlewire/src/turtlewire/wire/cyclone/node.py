@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
@@ -18,8 +19,6 @@ from .services import CycloneClient, CycloneService, format_service_id
 from .subscription import CycloneSubscription, deliver_rest_to, deliver_to
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import (
         Client,
         Context,

@@ -6,7 +6,7 @@ import contextlib
 import ctypes
 import os
 import threading
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from turtlewire.errors import TurtlewireError, WireError
 from turtlewire.wire import names
@@ -19,9 +19,6 @@ from .configuration import domain_configuration, stays_on_loopback
 from .log import CycloneLog
 from .ports import max_processes, ports_of, processes_on_host
 from .sertype import sertype_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = ["Participant"]
 

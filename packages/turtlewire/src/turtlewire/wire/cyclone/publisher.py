@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar, cast
 
 from turtlewire.errors import WireError
@@ -26,8 +27,6 @@ from .servers import is_fast_dds, matched_endpoints
 from .writing import CLOSED, NO_IDENTITY, NO_MESSAGE, REFUSED, make_writer
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from turtlewire._native import CycloneWriter
     from turtlewire.wire.base import Outlet
     from turtlewire.wire.encapsulation import Cdr

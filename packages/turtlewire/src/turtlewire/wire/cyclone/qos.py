@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from ctypes import c_char_p, c_int, c_int32, c_int64, c_size_t, c_void_p, string_at
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, QoS, Reliability
 
 from . import library as dds
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = ["MAX_BLOCKING_NS", "dds_qos", "policy_kind", "read_qos", "read_user_data"]
 

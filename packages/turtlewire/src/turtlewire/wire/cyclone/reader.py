@@ -10,14 +10,11 @@ import itertools
 import threading
 import time
 from collections import deque
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from turtlewire.guarded import call_guarded
 
 from .waiting import ConditionSet
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = ["CycloneReaderThread"]
 

@@ -15,6 +15,7 @@ Two measures together prevent that:
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.wire.graph import parse_user_data
@@ -28,7 +29,6 @@ from .qos import read_user_data
 
 if TYPE_CHECKING:
     import ctypes
-    from collections.abc import Callable
 
     from turtlewire.errors import UncallableServiceError
 

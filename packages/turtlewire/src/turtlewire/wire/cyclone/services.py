@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import threading
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.errors import WireError
@@ -39,8 +40,6 @@ from .servers import (
 from .subscription import is_identified
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import RequestId
 
     from .publisher import CyclonePublisher

@@ -12,14 +12,13 @@ registered the peer, and requests all of the data in a form that Fast DDS accept
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import library as dds
 from .ports import is_cyclone, process_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from .participant import Participant
 
 __all__ = ["PATIENCE_NS", "Questions", "SilentPeers"]

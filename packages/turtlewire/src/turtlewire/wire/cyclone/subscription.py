@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, ClassVar
 
@@ -30,8 +31,6 @@ from .qos import dds_qos, read_user_data
 from .taking import take_messages
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
     from turtlewire.wire.base import Sink, WaitSet
 
     from .participant import Participant

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from turtlewire.wire import timeouts
@@ -17,8 +18,6 @@ from .native import NATIVE, address_of
 from .subscription import CycloneSubscription
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import Waitable
 
 __all__ = ["ConditionSet", "CycloneWaitSet", "readable_part"]

@@ -6,6 +6,7 @@ import itertools
 import os
 import threading
 from collections import deque
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from turtlewire.errors import WireError
@@ -22,8 +23,6 @@ from turtlewire.wire.events import StatusEvent
 from turtlewire.wire.qos import Durability, History, Reliability
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import Event, NodeInfo, TypeId
     from turtlewire.wire.qos import QoS
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
@@ -27,8 +28,6 @@ from turtlewire.wire.services import TopicClient, TopicService
 from .bus import EVENTS, Bus, LocalEndpoint, LocalEndpointSpec, Message, bus_of, new_gid
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import Client, Service, ServiceTypes, Sink, TypeId, Waitable, WaitSet
     from turtlewire.wire.encapsulation import Cdr
     from turtlewire.wire.qos import QoS

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 from zenoh.handlers import Callback as Handler
 
 from turtlewire.errors import WireError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = [
     "CallbackThreads",

@@ -15,7 +15,8 @@ import json
 import os
 import sys
 import threading
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import zenoh
 from zenoh import shm
@@ -26,9 +27,6 @@ from turtlewire.wire.environment import Range
 from turtlewire.wire.report import warn_once
 
 from .library import reason_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 __all__ = [
     "ROUTER_PORT",

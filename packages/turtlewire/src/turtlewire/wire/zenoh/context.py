@@ -6,6 +6,7 @@ import atexit
 import ctypes
 import os
 import threading
+from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from typing import TYPE_CHECKING, ClassVar
 from weakref import WeakSet
@@ -30,8 +31,6 @@ from .services import ZenohClient, ZenohService
 from .tokens import NODE, Token
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from turtlewire.wire.base import (
         Client,
         Entity,

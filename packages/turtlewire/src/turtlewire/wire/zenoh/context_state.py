@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Protocol
 
@@ -16,7 +17,6 @@ from .library import reason_of
 
 if TYPE_CHECKING:
     import threading
-    from collections.abc import Iterator
 
     from turtlewire.wire.base import Entity
     from turtlewire.wire.reader_thread import ReaderThread

@@ -9,13 +9,13 @@ import json
 import re
 import socket
 import threading
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.wire.report import warn_once
 
 if TYPE_CHECKING:
     import ssl
-    from collections.abc import Iterator
 
     import zenoh
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from zenoh import SampleKind
@@ -17,8 +18,6 @@ from turtlewire.wire.report import warn_once
 from .tokens import CLIENT, NODE, PUBLISHER, SERVICE, SUBSCRIPTION, Token, graph_key, parse_qos
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     import zenoh
 
     from turtlewire.wire.reader_thread import ReaderThread

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import zenoh
@@ -24,7 +25,6 @@ from .endpoint import ZenohEndpoint
 from .tokens import SUBSCRIPTION
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from typing import Any
 
     from turtlewire.wire.base import TypeId

@@ -16,8 +16,9 @@ import signal
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
 import zenoh
 from zenoh import SampleKind, WhatAmI
@@ -30,9 +31,6 @@ from turtlewire.wire.report import warn, warn_once
 from .configuration import router_configuration
 from .diagnosis import warn_of_faults
 from .library import reason_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = [
     "explain",

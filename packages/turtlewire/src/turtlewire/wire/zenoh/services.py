@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import time
 from collections import deque
+from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -23,7 +24,6 @@ from .library import reason_of
 from .tokens import CLIENT, SERVICE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from typing import Any
 
     from turtlewire.wire.base import TypeId
