@@ -52,7 +52,7 @@ PyObject* none_or_error(const Refusal& refusal) {
 
 PyObject* set_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
                         PyObject* keywords) {
-  static const Signature<6> signature(
+  static constinit const Signature<6> signature(
       {"set_transform",
        4,
        5,
@@ -70,7 +70,7 @@ PyObject* set_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t c
 
 PyObject* set_static_transform(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
                                PyObject* keywords) {
-  static const Signature<5> signature(
+  static constinit const Signature<5> signature(
       {"set_static_transform",
        3,
        4,
@@ -88,7 +88,7 @@ PyObject* set_static_transform(PyObject* self, PyObject* const* arguments, Py_ss
 // For the packages with ROS names, whose buffers log a refusal.
 PyObject* set_or_explain(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
                          PyObject* keywords) {
-  static const Signature<7> signature(
+  static constinit const Signature<7> signature(
       {"_set_transform",
        7,
        7,
@@ -106,7 +106,7 @@ PyObject* set_or_explain(PyObject* self, PyObject* const* arguments, Py_ssize_t 
 
 PyObject* add_tf_message(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
                          PyObject* keywords) {
-  static const Signature<3> signature({"add_tf_message", 1, 1, {"cdr", "static", "sender"}});
+  static constinit const Signature<3> signature({"add_tf_message", 1, 1, {"cdr", "static", "sender"}});
   thread_local TfMessage message;
   Values<3> v;
   bool is_static = false;

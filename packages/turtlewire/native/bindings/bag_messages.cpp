@@ -273,8 +273,8 @@ void add_bag_message_types(nb::module_& module) {
       .def("convert", &convert, "message"_a,
            "The CDR of a message; None for bytes that do not follow the steps, or that hold text\n"
            "beyond ASCII.");
-  module.def("convert_messages", &convert_messages, "messages"_a, "position"_a, "conversions"_a,
-             "into"_a,
+  module.def("convert_messages", &convert_messages, "messages"_a.lock(), "position"_a,
+             "conversions"_a.lock(), "into"_a,
              "Appends messages to a list, converted to CDR if their channel has a Ros1ToCdr.\n\n"
              "Returns:\n"
              "    Where the first message is that it cannot convert: its channel has None, or\n"
@@ -290,12 +290,12 @@ void add_bag_message_types(nb::module_& module) {
       .def(nb::init<nb::handle, std::size_t, std::size_t, std::uint32_t>(), "file"_a,
            "page_bytes"_a, "usable_bytes"_a, "root"_a)
       .def("read", &MessageTable::read, "topics"_a, "start_ns"_a, "end_ns"_a, "block_bytes"_a,
-           "into"_a,
+           "into"_a, nb::lock_self(),
            "Appends log time and bytes of the next messages to a list, until there are enough\n"
            "bytes. False at the end of the table, or before a row of another form.")
-      .def_prop_ro("is_whole", &MessageTable::is_whole,
+      .def_prop_ro("is_whole", &MessageTable::is_whole, nb::lock_self(),
                    "False if a row has another form than the rows of rosbag2.")
-      .def_prop_ro("last_id", &MessageTable::last_id,
+      .def_prop_ro("last_id", &MessageTable::last_id, nb::lock_self(),
                    "The id of the last row that was read; the lowest number before the first.");
   nb::class_<LoggedColumns>(module, "ColumnReader",
                             "Collects fields of many messages of one type.\n\n"
@@ -304,13 +304,13 @@ void add_bag_message_types(nb::module_& module) {
                             "        turtlewire.bag.column_steps.\n"
                             "    columns: The number of columns.")
       .def("__init__", &make_reader, "steps"_a, "columns"_a)
-      .def("take", &take, "messages"_a,
+      .def("take", &take, "messages"_a.lock(), nb::lock_self(),
            "Adds the fields of messages: tuples whose first item is the log time and whose last\n"
            "is the bytes. False, and the columns are of no use, if one is not little endian CDR\n"
            "of the type. Raises OverflowError for a log time beyond 63 bits.")
-      .def_prop_ro("log_times", &log_times,
+      .def_prop_ro("log_times", &log_times, nb::lock_self(),
                    "The log times of the messages in nanoseconds, 64 bits each.")
-      .def_prop_ro("columns", &columns,
+      .def_prop_ro("columns", &columns, nb::lock_self(),
                    "The bytes of each column: numbers; of texts and sequences where they begin in "
                    "their message, and how many elements they have, 64 bits each.");
 }

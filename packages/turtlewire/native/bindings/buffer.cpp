@@ -58,15 +58,11 @@ BufferObject::KnownPath& BufferObject::place_of(PyObject* target, PyObject* sour
   return known_paths_[(a * 3 ^ b ^ b >> 8) % known_paths_.size()];
 }
 
-const Path* BufferObject::known_path(Tree& tree, PyObject* target, PyObject* source) {
-  KnownPath& known = place_of(target, source);
-  if (known.target != target || known.source != source || known.epoch != tree.path_epoch())
-    return nullptr;
-  if (!tree.is_current(*known.path)) [[unlikely]] {
-    known.path = &tree.path(known.path->target, known.path->source);
-    known.epoch = tree.path_epoch();
-  }
-  return known.path;
+const Path* BufferObject::known_path(const Tree& tree, PyObject* target, PyObject* source) {
+  const KnownPath& known = place_of(target, source);
+  const bool is_known =
+      known.target == target && known.source == source && known.epoch == tree.path_epoch();
+  return is_known && tree.is_current(*known.path) ? known.path : nullptr;
 }
 
 void BufferObject::remember_path(PyObject* target, PyObject* source, std::string_view target_name,
@@ -118,10 +114,10 @@ bool BufferObject::raise_failure(const Failure& failure) {
 bool BufferObject::lookup(PyObject* target, PyObject* source, Stamp t, Stamp timeout,
                           Found& found) {
   {
-    const SharedBuffer::Access access(shared);
-    const Path* path = known_path(*access, target, source);
+    const SharedBuffer::View tree(shared);
+    const Path* path = known_path(*tree, target, source);
     found.stamp = t;
-    if (path != nullptr && access->lookup(*path, found.stamp, found.target_from_source, nullptr) ==
+    if (path != nullptr && tree->lookup(*path, found.stamp, found.target_from_source, nullptr) ==
                                Status::ok) [[likely]] {
       return true;
     }
@@ -145,9 +141,9 @@ bool BufferObject::lookup_by_name(PyObject* target, PyObject* source, Stamp t, S
 }
 
 bool BufferObject::certainly_can_transform(PyObject* target, PyObject* source, Stamp t) {
-  const SharedBuffer::Access access(shared);
-  const Path* path = known_path(*access, target, source);
-  return path != nullptr && access->can_transform(*path, t, nullptr) == Status::ok;
+  const SharedBuffer::View tree(shared);
+  const Path* path = known_path(*tree, target, source);
+  return path != nullptr && tree->can_transform(*path, t, nullptr) == Status::ok;
 }
 
 bool BufferObject::can_transform(PyObject* target, PyObject* source, Stamp t, Stamp timeout,

@@ -59,7 +59,7 @@ class BufferObject {
 
  private:
   // A cached pair of names, recognized by the identity of the two string objects, which it keeps
-  // alive.
+  // alive. The lock of `shared` guards it.
   struct KnownPath {
     PyObject* target = nullptr;
     PyObject* source = nullptr;
@@ -68,7 +68,7 @@ class BufferObject {
   };
 
   KnownPath& place_of(PyObject* target, PyObject* source);
-  const Path* known_path(Tree& tree, PyObject* target, PyObject* source);
+  const Path* known_path(const Tree& tree, PyObject* target, PyObject* source);
   void remember_path(PyObject* target, PyObject* source, std::string_view target_name,
                      std::string_view source_name);
   bool lookup_by_name(PyObject* target, PyObject* source, Stamp t, Stamp timeout, Found& found);
@@ -92,7 +92,7 @@ BufferObject* buffer_of(PyObject* self);
 // A method of Buffer: `Answer` gets the arguments that `Names` reads, and returns an object.
 template <const auto& Names, auto Answer>
 PyObject* answered(PyObject* object, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
-  static const Signature signature(Names);
+  static constinit const Signature signature(Names);
   Values<Names.names.size()> values;
   BufferObject* self = buffer_of(object);
   if (self == nullptr || !signature.read(given, count, keywords, values)) return nullptr;

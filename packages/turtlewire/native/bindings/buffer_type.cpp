@@ -142,7 +142,7 @@ nb::object on_change(BufferObject& buffer, const Values<1>& given) {
 constexpr Parameters<2> kBuffer{"Buffer", 0, 2, {"cache_time_ns", "max_frames"}};
 
 void initialize(BufferObject* self, const nb::args& arguments, const nb::kwargs& keywords) {
-  static const Signature signature(kBuffer);
+  static constinit const Signature signature(kBuffer);
   Values<2> given;
   if (!signature.read_all(arguments.ptr(), keywords.ptr(), given)) throw nb::python_error();
   const nb::object keep = given[0] == nullptr ? nb::int_(10'000'000'000) : nb::borrow(given[0]);

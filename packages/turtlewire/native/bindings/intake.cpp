@@ -50,6 +50,7 @@ class IntakeObject final : public Sink {
   void feed(nb::tuple buffers) {
     std::vector<SharedBuffer*> fed;
     for (const nb::handle buffer : buffers) fed.push_back(&nb::cast<BufferObject&>(buffer).shared);
+    const nb::ft_lock_guard guard(buffers_mutex_);
     core.feed(std::move(fed));
     std::swap(buffers_,
               buffers);  // the previous ones are destroyed when nothing uses them any more
@@ -123,11 +124,16 @@ class IntakeObject final : public Sink {
       });
     }
     if (!core.take_news()) return;
-    const nb::tuple fed = buffers_;
-    for (const nb::handle buffer : fed) nb::cast<BufferObject&>(buffer).call_listeners();
+    for (const nb::handle buffer : fed()) nb::cast<BufferObject&>(buffer).call_listeners();
   }
 
-  nb::tuple buffers_;  // keeps those alive that the core fills
+  nb::tuple fed() {
+    const nb::ft_lock_guard guard(buffers_mutex_);
+    return buffers_;
+  }
+
+  nb::ft_mutex buffers_mutex_;  // does nothing with a GIL
+  nb::tuple buffers_;           // keeps those alive that the core fills
   nb::object identify_, on_expected_;
 };
 

@@ -17,7 +17,7 @@ struct Lookup {
   PyObject *target = nullptr, *source = nullptr, *fixed = nullptr;
   Stamp t = kLatest, target_time = kLatest, timeout = 0, beyond = 0;
 
-  static Parameters<kCount> parameters(const char* method) {
+  static constexpr Parameters<kCount> parameters(const char* method) {
     return {method,
             2,
             3,
@@ -97,7 +97,7 @@ struct Lookup {
 template <const char* Method, typename Arguments, auto SelfOf, auto Answer>
 PyObject* with_arguments(PyObject* object, PyObject* const* given, Py_ssize_t count,
                          PyObject* keywords) {
-  static const Signature<Arguments::kCount> signature(Arguments::parameters(Method));
+  static constinit const Signature<Arguments::kCount> signature(Arguments::parameters(Method));
   Values<Arguments::kCount> values;
   Arguments arguments;
   auto* self = SelfOf(object);

@@ -51,12 +51,11 @@ bool join_seconds(Stamp sec, Stamp nanosec, Stamp& t, const char* what) {
 // tf2_py's converters: a message with sec and nanosec, else an rclpy Time or Duration with
 // nanoseconds.
 bool time_of(PyObject* object, Stamp& t, const char* what) {
-  static PyObject* const sec_name = PyUnicode_InternFromString("sec");
-  static PyObject* const nanosec_name = PyUnicode_InternFromString("nanosec");
-  static PyObject* const nanoseconds_name = PyUnicode_InternFromString("nanoseconds");
+  static constinit const Interned sec_name, nanosec_name, nanoseconds_name;
   Stamp seconds = 0, nanoseconds = 0;
-  PyObject* sec = optional_attribute(object, sec_name);
-  PyObject* nanosec = sec != nullptr ? optional_attribute(object, nanosec_name) : nullptr;
+  PyObject* sec = optional_attribute(object, sec_name.get("sec"));
+  PyObject* nanosec =
+      sec != nullptr ? optional_attribute(object, nanosec_name.get("nanosec")) : nullptr;
   if (nanosec != nullptr) {
     const bool has_seconds = take_integer(sec, seconds);
     const bool has_nanoseconds = take_integer(nanosec, nanoseconds);  // releases it in any case
@@ -64,7 +63,7 @@ bool time_of(PyObject* object, Stamp& t, const char* what) {
   }
   Py_XDECREF(sec);
   if (PyErr_Occurred() != nullptr) return false;
-  PyObject* total = optional_attribute(object, nanoseconds_name);
+  PyObject* total = optional_attribute(object, nanoseconds_name.get("nanoseconds"));
   if (total == nullptr) {
     return PyErr_Occurred() == nullptr && raise_no_ros_time(object, what);
   }
@@ -216,7 +215,7 @@ struct AtOneTime {
   PyObject *target = nullptr, *source = nullptr;
   Stamp t = kLatest, timeout = 0;
 
-  static Parameters<kCount> parameters(const char* method) {
+  static constexpr Parameters<kCount> parameters(const char* method) {
     return {method, 3, 4, {"target_frame", "source_frame", "time", "timeout"}};
   }
   bool take(const Values<kCount>& v) {
@@ -236,7 +235,7 @@ struct AtTwoTimes {
   PyObject *target = nullptr, *source = nullptr, *fixed = nullptr;
   Stamp target_time = kLatest, source_time = kLatest, timeout = 0;
 
-  static Parameters<kCount> parameters(const char* method) {
+  static constexpr Parameters<kCount> parameters(const char* method) {
     return {
         method,
         5,

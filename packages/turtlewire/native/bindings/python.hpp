@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -60,6 +61,24 @@ bool raise_misfit(const char* method, std::span<PyObject* const> names, std::siz
 // False, with the TypeError of turtlewire.call_errors for an object that is no time of ROS.
 bool raise_no_ros_time(PyObject* object, const char* what);
 
+// A name as the str that the interpreter has of it only once, made at first use. That takes no lock:
+// a thread that waits for a lock of C++ keeps a free-threaded interpreter from pausing its threads,
+// and the one that holds it may be waiting for that pause to end.
+class Interned {
+ public:
+  PyObject* get(const char* name) const {
+    PyObject* known = object_.load(std::memory_order_acquire);
+    if (known != nullptr) [[likely]]
+      return known;
+    PyObject* made = PyUnicode_InternFromString(name);
+    object_.store(made, std::memory_order_release);
+    return made;
+  }
+
+ private:
+  mutable std::atomic<PyObject*> object_ = nullptr;
+};
+
 // The names of a method's parameters. The first `required` must be given, those after the first
 // `positional` by keyword.
 template <std::size_t N>
@@ -77,19 +96,17 @@ using Values = std::array<PyObject*, N>;
 template <std::size_t N>
 class Signature {
  public:
-  explicit Signature(const Parameters<N>& parameters)
-      : method_(parameters.method),
-        required_(parameters.required),
-        positional_(parameters.positional) {
-    for (std::size_t i = 0; i < N; ++i) names_[i] = PyUnicode_InternFromString(parameters.names[i]);
-  }
+  constexpr explicit Signature(const Parameters<N>& parameters) : parameters_(parameters) {}
 
   // False with a TypeError if they do not fit.
   bool read(PyObject* const* arguments, Py_ssize_t count, PyObject* keywords,
             Values<N>& values) const {
     if (take(arguments, count, keywords, values)) [[likely]]
       return true;
-    return raise_misfit(method_, names_, required_, positional_, count, keywords);
+    Values<N> names;
+    for (std::size_t i = 0; i < N; ++i) names[i] = name(i);
+    return raise_misfit(parameters_.method, names, parameters_.required, parameters_.positional,
+                        count, keywords);
   }
 
   // The same for the arguments of a constructor: a tuple and a dictionary, which may be null.
@@ -114,10 +131,10 @@ class Signature {
   bool take(PyObject* const* arguments, Py_ssize_t count, PyObject* keywords,
             Values<N>& values) const {
     values.fill(nullptr);
-    if (static_cast<std::size_t>(count) > positional_) return false;
+    if (static_cast<std::size_t>(count) > parameters_.positional) return false;
     for (Py_ssize_t i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = arguments[i];
     if (keywords != nullptr && !take_keywords(arguments + count, keywords, values)) return false;
-    for (std::size_t i = 0; i < required_; ++i) {
+    for (std::size_t i = 0; i < parameters_.required; ++i) {
       if (values[i] == nullptr) return false;
     }
     return true;
@@ -136,15 +153,16 @@ class Signature {
   // of all names are compared before the text of any.
   std::size_t index_of(PyObject* keyword) const {
     for (std::size_t i = 0; i < N; ++i)
-      if (names_[i] == keyword) return i;
+      if (name(i) == keyword) return i;
     std::size_t i = 0;
-    while (i < N && PyUnicode_Compare(names_[i], keyword) != 0) ++i;
+    while (i < N && PyUnicode_Compare(name(i), keyword) != 0) ++i;
     return i;
   }
 
-  const char* method_;
-  std::size_t required_, positional_;
-  std::array<PyObject*, N> names_;
+  PyObject* name(std::size_t i) const { return names_[i].get(parameters_.names[i]); }
+
+  Parameters<N> parameters_;
+  std::array<Interned, N> names_;
 };
 
 // False, with the TypeError of turtlewire.call_errors for an object that is no str.

@@ -73,7 +73,7 @@ void add_record_walk_type(nb::module_& module) {
       "    start_ns: The first log time of the messages that are taken.\n"
       "    end_ns: The last log time.")
       .def(nb::init<std::uint64_t, std::uint64_t>(), "start_ns"_a, "end_ns"_a)
-      .def("walk", &walk, "buffer"_a, "records"_a, "channels"_a,
+      .def("walk", &walk, "buffer"_a, "records"_a, "channels"_a.lock(),
            "Adds the messages of a chunk's decompressed records, without the GIL.\n\n"
            "Args:\n"
            "    buffer: Where to.\n"

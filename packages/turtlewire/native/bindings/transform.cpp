@@ -56,7 +56,7 @@ constexpr Parameters<5> kTransform{
     "Transform", 3, 4, {"target_frame", "source_frame", "translation", "rotation", "stamp_ns"}};
 
 PyObject* create(PyTypeObject*, PyObject* arguments, PyObject* keywords) {
-  static const Signature signature(kTransform);
+  static constinit const Signature signature(kTransform);
   Values<5> given;
   if (!signature.read_all(arguments, keywords, given)) return nullptr;
   const auto [target, source, translation, rotation, moment] = given;
@@ -140,7 +140,7 @@ PyObject* compare(PyObject* a, PyObject* b, int operation) {
 // Calls a helper in Python for a method that reads the arguments `Names`; None for omitted ones.
 template <const auto& Names, const char* Home, const char* Helper>
 PyObject* asked(PyObject* self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature signature(Names);
+  static constinit const Signature signature(Names);
   Values<Names.names.size()> given;
   if (!signature.read(arguments, count, keywords, given)) return nullptr;
   return std::apply(
@@ -258,6 +258,11 @@ PyType_Spec spec = {"turtlewire.Transform", sizeof(TransformObject), 0, Py_TPFLA
 bool add_transform_type(nb::module_& module) {
   transform_type = reinterpret_cast<PyTypeObject*>(PyType_FromSpec(&spec));
   if (transform_type == nullptr) return false;
+#if defined(Py_GIL_DISABLED)
+  // A count above 32 bits makes the class immortal. Otherwise all threads that make transforms
+  // would write to its reference count, each time waiting for the others' cores.
+  Py_SET_REFCNT(reinterpret_cast<PyObject*>(transform_type), PY_SSIZE_T_MAX);
+#endif
   return PyObject_SetAttrString(module.ptr(), "Transform",
                                 reinterpret_cast<PyObject*>(transform_type)) == 0;
 }

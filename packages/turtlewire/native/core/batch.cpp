@@ -51,30 +51,19 @@ BatchLookup::BatchLookup(SharedBuffer& shared, std::string_view target, std::str
                          Stamp beyond)
     : shared_(shared), target_(target), source_(source), beyond_(beyond) {}
 
-const Path* BatchLookup::path(Tree& tree) {
-  if (source_id_ == 0 || epoch_ != tree.path_epoch()) {
-    unresolved_ = tree.resolve(target_, target_id_);
-    if (unresolved_ == Status::ok) unresolved_ = tree.resolve(source_, source_id_);
-    if (unresolved_ != Status::ok) {
-      source_id_ = 0;
-      return nullptr;
-    }
-  }
-  const Path& path = tree.path(target_id_, source_id_);
-  epoch_ = tree.path_epoch();
-  if (path.version != version_) {
-    up_hints_.assign(path.up.size(), 0);
-    down_hints_.assign(path.down.size(), 0);
-    version_ = path.version;
-  }
-  return &path;
+bool BatchLookup::resolve(const Tree& tree) {
+  if (source_id_ != 0 && epoch_ == tree.path_epoch()) return true;
+  unresolved_ = tree.resolve(target_, target_id_);
+  if (unresolved_ == Status::ok) unresolved_ = tree.resolve(source_, source_id_);
+  if (unresolved_ != Status::ok) source_id_ = 0;
+  return unresolved_ == Status::ok;
 }
 
 Stamp BatchLookup::latest() {
-  const SharedBuffer::Access access(shared_);
+  const SharedBuffer::View tree(shared_);
   Stamp t = kLatest;
-  if (target_ != source_ && path(*access) != nullptr)
-    access->latest_common_time(target_id_, source_id_, t, nullptr);
+  if (target_ != source_ && resolve(*tree))
+    tree->latest_common_time(target_id_, source_id_, t, nullptr);
   return t;
 }
 
@@ -84,15 +73,36 @@ void BatchLookup::block(std::span<const Stamp> stamps, Lanes& poses, Status* sta
     poses.fill({});
     return;
   }
+  if (known_block(stamps, poses, statuses)) return;
   const SharedBuffer::Access access(shared_);
-  const Path* known = path(*access);
-  if (known == nullptr) {
+  if (resolve(*access)) {
+    answer(*access, access->path(target_id_, source_id_), stamps, poses, statuses);
+  } else {
     std::fill_n(statuses, stamps.size(), unresolved_);
     poses.fill(kNoPose);
-  } else if (stamps.size() < kScalarBelow || !known->direct) {
-    scalar_block(*access, *known, stamps, poses, statuses);
+  }
+}
+
+// Answers with the lock shared; false if the path must first be built, or a name is unknown.
+bool BatchLookup::known_block(std::span<const Stamp> stamps, Lanes& poses, Status* statuses) {
+  const SharedBuffer::View tree(shared_);
+  const Path* path = resolve(*tree) ? tree->known_path(target_id_, source_id_) : nullptr;
+  if (path != nullptr) answer(*tree, *path, stamps, poses, statuses);
+  return path != nullptr;
+}
+
+void BatchLookup::answer(const Tree& tree, const Path& path, std::span<const Stamp> stamps,
+                         Lanes& poses, Status* statuses) {
+  epoch_ = tree.path_epoch();
+  if (path.version != version_) {
+    up_hints_.assign(path.up.size(), 0);
+    down_hints_.assign(path.down.size(), 0);
+    version_ = path.version;
+  }
+  if (stamps.size() < kScalarBelow || !path.direct) {
+    scalar_block(tree, path, stamps, poses, statuses);
   } else {
-    direct_block(*access, *known, stamps, poses, statuses);
+    direct_block(tree, path, stamps, poses, statuses);
   }
 }
 

@@ -30,7 +30,10 @@ class BatchLookup {
   // The places of a dynamic link's last hits: for stamps that come in order.
   using Hints = std::vector<std::size_t>;
 
-  const Path* path(Tree& tree);  // null if a name is unknown
+  bool resolve(const Tree& tree);  // false if a name is unknown
+  bool known_block(std::span<const Stamp> stamps, Lanes& poses, Status* statuses);
+  void answer(const Tree& tree, const Path& path, std::span<const Stamp> stamps, Lanes& poses,
+              Status* statuses);
   Status find(const Tree& tree, const Path& path, Stamp t, Pose& pose) const;
   void scalar_block(const Tree& tree, const Path& path, std::span<const Stamp> stamps, Lanes& poses,
                     Status* statuses);

@@ -1,9 +1,10 @@
 // A buffer for many threads: one lock, held briefly, and never while a message is formatted or a
-// callback runs.
+// callback runs. Lookups along a path that is known share it where they run at the same time.
 #pragma once
 
 #include <algorithm>
 #include <mutex>
+#include <shared_mutex>
 #include <span>
 #include <string_view>
 #include <thread>
@@ -11,6 +12,7 @@
 
 #include "fork.hpp"
 #include "received_transform.hpp"
+#include "shared_lock.hpp"
 #include "tree.hpp"
 
 namespace turtlewire {
@@ -55,7 +57,7 @@ struct Added {
   bool new_refusal = false;  // a frame was refused for another reason, for the first time
 };
 
-// Each method takes the lock for itself; Access is for several steps at once.
+// Each method takes the lock for itself; Access and View are for several steps at once.
 class SharedBuffer final : public ForkAware {
  public:
   explicit SharedBuffer(Stamp keep, std::size_t max_frames = 0) : tree_(keep, max_frames) {}
@@ -75,7 +77,20 @@ class SharedBuffer final : public ForkAware {
 
    private:
     SharedBuffer& shared_;
-    const std::scoped_lock<std::mutex> lock_;
+    const std::scoped_lock<SharedLock> lock_;
+  };
+
+  // The tree for as long as this lives, while other threads may read it as well.
+  class View {
+   public:
+    explicit View(SharedBuffer& shared) : tree_(shared.tree_), lock_(shared.mutex_) {}
+
+    const Tree* operator->() const { return &tree_; }
+    const Tree& operator*() const { return tree_; }
+
+   private:
+    const Tree& tree_;
+    const std::shared_lock<SharedLock> lock_;
   };
 
   Stamp keep() const { return tree_.keep(); }
@@ -109,11 +124,12 @@ class SharedBuffer final : public ForkAware {
     for (Waiter* waiter : waiters_) waiter->wake();
   }
   Status resolve(std::string_view name, Argument argument, FrameId& id, Failure& failure) const;
+  bool find_known(const Request& request, Found& found);
   Status find(const Request& request, Found& found, Failure& failure);
   Status find(FrameId target, FrameId source, Stamp beyond, Found& found, Failure& failure);
   Status test(const Request& request, Failure& failure);
 
-  std::mutex mutex_;  // guards the three below
+  SharedLock mutex_;  // guards the three below
   Tree tree_;
   std::vector<Waiter*> waiters_;
   std::size_t listeners_ = 0;

@@ -254,9 +254,22 @@ void Tree::drop_paths() {
   ++path_epoch_;
 }
 
+namespace {
+
+std::uint64_t pair_of(FrameId target, FrameId source) {
+  return std::uint64_t{target} << 32 | source;
+}
+
+}  // namespace
+
+const Path* Tree::known_path(FrameId target, FrameId source) const {
+  const auto known = paths_.find(pair_of(target, source));
+  return known != paths_.end() && is_current(*known->second) ? known->second.get() : nullptr;
+}
+
 const Path& Tree::path(FrameId target, FrameId source) {
   if (paths_.size() >= kMostPaths) drop_paths();
-  auto& known = paths_[static_cast<std::uint64_t>(target) << 32 | source];
+  auto& known = paths_[pair_of(target, source)];
   if (!known) {
     known = std::make_unique<Path>();
     known->target = target;

@@ -125,6 +125,8 @@ class Tree {
   // change of the tree.
   const Path& path(FrameId target, FrameId source);
   bool is_current(const Path& path) const { return path.version == version_; }
+  // The same path, if it is known and current; else null.
+  const Path* known_path(FrameId target, FrameId source) const;
   // Counts the times that all paths were thrown away, and names freed: pointers to paths and
   // numbers of frames of another epoch mean nothing.
   std::uint64_t path_epoch() const { return path_epoch_; }

@@ -22,7 +22,7 @@ NATIVE = ENGINE / "native"
 SANITIZERS = {
     "plain": "",
     "address": "-fsanitize=address,undefined -fno-sanitize-recover=all",
-    "thread": "-fsanitize=thread",
+    "thread": "-fsanitize=thread -DTURTLEWIRE_READER_LOCKS=8",
 }
 
 
