@@ -106,7 +106,8 @@ PyObject* set_or_explain(PyObject* self, PyObject* const* arguments, Py_ssize_t 
 
 PyObject* add_tf_message(PyObject* self, PyObject* const* arguments, Py_ssize_t count,
                          PyObject* keywords) {
-  static constinit const Signature<3> signature({"add_tf_message", 1, 1, {"cdr", "static", "sender"}});
+  static constinit const Signature<3> signature(
+      {"add_tf_message", 1, 1, {"cdr", "static", "sender"}});
   thread_local TfMessage message;
   Values<3> v;
   bool is_static = false;

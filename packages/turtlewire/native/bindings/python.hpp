@@ -61,9 +61,9 @@ bool raise_misfit(const char* method, std::span<PyObject* const> names, std::siz
 // False, with the TypeError of turtlewire.call_errors for an object that is no time of ROS.
 bool raise_no_ros_time(PyObject* object, const char* what);
 
-// A name as the str that the interpreter has of it only once, made at first use. That takes no lock:
-// a thread that waits for a lock of C++ keeps a free-threaded interpreter from pausing its threads,
-// and the one that holds it may be waiting for that pause to end.
+// A name as the str that the interpreter has of it only once, made at first use. That takes no
+// lock: a thread that waits for a lock of C++ keeps a free-threaded interpreter from pausing its
+// threads, and the one that holds it may be waiting for that pause to end.
 class Interned {
  public:
   PyObject* get(const char* name) const {

@@ -9,6 +9,7 @@ import contextlib
 import gc
 import math
 import sys
+import sysconfig
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
@@ -17,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from tests.programs import run_python
 
 from turtlewire import errors, msg
 
@@ -243,3 +245,18 @@ def test_each_thread_has_its_own_buffer(core: Any, rounds: int) -> None:
         return lambda i: work(own, i)
 
     run([named(Roles(core, core.Buffer())) for _ in range(4)], rounds // 4)
+
+
+def test_the_core_leaves_the_gil_off() -> None:
+    """A module that does not declare that it works without a GIL turns it on when imported."""
+    program = """
+import sys
+import turtlewire, turtlewire.tf
+
+buffer = turtlewire.Buffer()
+buffer.set_transform("map", "robot", 1, (0, 0, 0))
+buffer.lookup_transforms("map", "robot", [1])
+print(getattr(sys, "_is_gil_enabled", lambda: True)())
+"""
+    without_gil = bool(sysconfig.get_config_var("Py_GIL_DISABLED"))
+    assert run_python(program).stdout.strip() == str(not without_gil)
