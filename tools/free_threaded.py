@@ -27,7 +27,7 @@ def version_of(python: str) -> str:
     """Return the version of a Python, such as ``3.14.0t``.
 
     Raises:
-        ReleaseError: It cannot be started, or has a GIL.
+        ReleaseError: The Python cannot be started, or has a GIL.
     """
     try:
         done = subprocess.run([python, "-c", ABOUT], capture_output=True, text=True, check=True)
@@ -47,10 +47,12 @@ def make_venv(python: str) -> Path:
     if not own.exists():
         run(python, "-m", "venv", "--clear", venv, what=f"a venv of Python {version}")
     install_locked(own, "build", what="what compiles the core")
-    run(own, "-m", "pip", "install", "-q", *NEEDS, what="what the tests need")
-    command = [own, "-m", "pip", "install", "-q", "--no-deps", "--no-build-isolation"]
+    command = [own, "-m", "pip", "install", "-q"]
+    # The newest releases may have no wheels for it, and compiling NumPy takes half an hour.
+    run(*command, "--prefer-binary", *NEEDS, what="what the tests need")
+    command += ["--no-deps", "--no-build-isolation", "-e", ENGINE, ROS]
     environment = {**os.environ, "PATH": f"{own.parent}{os.pathsep}{os.environ['PATH']}"}
-    run(*command, "-e", ENGINE, "-e", ROS, what="our packages", environment=environment)
+    run(*command, what="our packages", environment=environment)
     return own
 
 
@@ -68,7 +70,8 @@ def main() -> int:
     except ReleaseError as error:
         say(str(error))
         return 1
-    words = words or ["-n", "2", "-m", "not slow", *TESTS]
+    # No middleware has wheels for it; the tests that run on both would miss Zenoh.
+    words = words or ["-n", "2", "-m", "not slow", "-k", "not rmw_zenoh_cpp", *TESTS]
     environment = {**os.environ, "TURTLEWIRE_REQUIRE_NATIVE": "1"}
     command = [str(python), "-m", "pytest", *words]
     return subprocess.run(command, cwd=ROOT, env=environment, check=False).returncode
