@@ -50,7 +50,8 @@ def make_venv(python: str) -> Path:
     command = [own, "-m", "pip", "install", "-q"]
     # The newest releases may have no wheels for it, and compiling NumPy takes half an hour.
     run(*command, "--prefer-binary", *NEEDS, what="what the tests need")
-    command += ["--no-deps", "--no-build-isolation", "-e", ENGINE, ROS]
+    # Not editable: such a build of the core would write into the folder of its sources.
+    command += ["--no-deps", "--no-build-isolation", "-C", f"build-dir={venv}/core", ENGINE, ROS]
     environment = {**os.environ, "PATH": f"{own.parent}{os.pathsep}{os.environ['PATH']}"}
     run(*command, what="our packages", environment=environment)
     return own
