@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from benchmarks.figures import Row
-from benchmarks.rival import run_adapter
+from benchmarks.figures import Row, run_adapter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
