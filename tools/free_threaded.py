@@ -10,7 +10,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from distributions import ENGINE, ROS
-from release_steps import ROOT, ReleaseError, install_locked, run, say
+from release_wheels import ROOT, ReleaseError, install_locked, run, say
 from script_options import ScriptParser
 
 HOME = ROOT / "build" / "free-threaded"
