@@ -190,9 +190,9 @@ def _build_wheels(folder: Path) -> None:
             except OSError:
                 if not kept.exists():  # another process was not just faster
                     raise
-        for former in set(WHEEL_CACHE.iterdir()) - {kept}:
-            shutil.rmtree(former, ignore_errors=True)
     shutil.copytree(kept, folder)
+    for former in set(WHEEL_CACHE.iterdir()) - {kept}:
+        shutil.rmtree(former, ignore_errors=True)
 
 
 def _fingerprint() -> str:

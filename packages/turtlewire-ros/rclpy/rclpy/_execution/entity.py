@@ -55,16 +55,16 @@ class EntityHost(Protocol):
         """Serve an entity no longer."""
         ...
 
-    def park(self, membership: Membership) -> bool:
-        """Serve the entities of a node no longer; True if :meth:`take_back` may follow."""
+    def park(self, membership: Membership) -> None:
+        """Serve the entities of a node no longer, until :meth:`take_back`."""
         ...
 
     def take_back(self, membership: Membership) -> None:
         """Serve the entities of a parked node again."""
         ...
 
-    def abandon_parked(self) -> None:
-        """Detach the entities of parked nodes."""
+    def end_membership(self, membership: Membership) -> None:
+        """Detach the entities of a parked node, which will not be taken back."""
         ...
 
     def create_task(self, callback: Callable[..., Any], *args: Any) -> Task[Any]:
@@ -165,6 +165,11 @@ class Entity:
         membership = self._membership  # one look: another thread may detach it at any moment
         return None if membership is None or not membership.is_active else membership.host()
 
+    def _host(self) -> EntityHost | None:
+        """Return the executor that serves it, or has parked its node."""
+        membership = self._membership
+        return None if membership is None else membership.host()
+
     @property
     def handle(self) -> Any:
         """The entity itself, for ``with`` statements such as those around ROS 2's C handles."""
@@ -191,7 +196,7 @@ class Entity:
             return
         # First: from now on no executor adopts the entity, and attaching it may fail silently.
         self._destroyed = True
-        host = self._serving_host()
+        host = self._host()
         if host is not None:
             host.release(self)
         # After the release: a wait set must not hold a closed endpoint.

@@ -12,9 +12,8 @@ if TYPE_CHECKING:
 class Membership:
     """The entities of one node that an executor serves, or its entities without a node.
 
-    ``rclpy.spin_once`` adds its node to an executor, and removes it after the call. As long as the
-    node has the same entities, its membership is only *parked* in between: see
-    :meth:`ExecutorWait.park`.
+    ``rclpy.spin_once`` adds its node to an executor, and removes it after the call. Its membership
+    is only *parked* in between: see :meth:`ExecutorWait.park`. The executor's lock guards it.
 
     Args:
         host: An `EntityHost`, which serves the entities.
@@ -23,6 +22,7 @@ class Membership:
     Attributes:
         host: A weak reference.
         is_active: False while the node is not in the executor.
+        is_over: True once the node has another membership.
         entities: Each `Entity`, in the order in which they were adopted.
         by_wire: The entities that are ready when their side on the wire is; None before it is
             known.
@@ -33,6 +33,7 @@ class Membership:
         self.host: weakref.ref[Any] = weakref.ref(host)
         self.node_index = node_index
         self.is_active = True
+        self.is_over = False
         self.entities: dict[Any, None] = {}
         self.by_wire: dict[base.Waitable, Any] | None = None
         self.others: list[Any] = []

@@ -91,17 +91,22 @@ class Scheduler:
     # Entities
 
     def adopt(self, entity: Entity, membership: Membership | None = None) -> None:
-        """Serve an entity of a node; entities without a node come first."""
+        """Serve an entity of a node; entities without a node come first.
+
+        While the node is parked, that begins when it is taken back.
+        """
         with self.lock:
             if membership is None:
                 membership = self._without_node
-            if not membership.is_active:  # another thread has removed the node
+            if membership.is_over:
                 return
-            self._members[membership] = None
             self._entities_made += 1
-            if entity._join(membership, self._entities_made):
-                membership.entities[entity] = None
-                membership.by_wire = None
+            if not entity._join(membership, self._entities_made):
+                return
+            self._before_change(membership)
+            membership.entities[entity] = None
+            if membership.is_active:
+                self._members[membership] = None
                 self._listen_to(entity, entity._attach)
 
     def release(self, entity: Entity) -> None:
@@ -109,30 +114,37 @@ class Scheduler:
         with self.lock:
             membership = entity._membership
             if membership is not None:
+                self._before_change(membership)
                 membership.entities.pop(entity, None)
-                membership.by_wire = None
-            if entity in self._paused:
-                self._paused.discard(entity)
-                self._self_waits.goes_on(entity)
+            self._forget_pause(entity)
             entity._leave(self)
 
-    def park(self, membership: Membership) -> bool:
-        """Serve the entities of a node no longer; its endpoints stay attached for the moment.
+    def _before_change(self, membership: Membership) -> None:
+        """Let its endpoints be attached one by one when the node is taken back."""
+        if not membership.is_active:
+            self.wait.detach_parked()
+        membership.by_wire = None
 
-        Returns:
-            True if :meth:`take_back` can undo it; else the membership is over.
-        """
+    def _forget_pause(self, entity: Entity) -> None:
+        if entity in self._paused:
+            self._paused.discard(entity)
+            self._self_waits.goes_on(entity)
+
+    def park(self, membership: Membership) -> None:
+        """Serve the entities of a node no longer; its endpoints stay attached for the moment."""
         with self.lock:
             self._members.pop(membership, None)
-            membership.is_active = False
             if self._paused:  # perhaps some of its entities, which are not attached
                 for entity in list(membership.entities):
-                    self.release(entity)
-                return False
+                    self._forget_pause(entity)
+                    entity._detach(self)
+                membership.by_wire = None
+                membership.is_active = False
+                return
+            membership.is_active = False
             self.wait.park(membership)
             for entity in membership.others:
                 entity._pause(self)
-            return True
 
     def take_back(self, membership: Membership) -> None:
         """Serve the entities of a parked node again."""
@@ -146,9 +158,11 @@ class Scheduler:
                 for entity in list(membership.entities):
                     self._listen_to(entity, entity._attach)
 
-    def abandon_parked(self) -> None:
-        """Detach the entities of parked nodes, at the latest when one joins another executor."""
-        self.wait.detach_parked()
+    def end_membership(self, membership: Membership) -> None:
+        """Detach the entities of a parked node, which joins an executor in another way."""
+        with self.lock:
+            membership.is_over = True
+            self.wait.detach_parked()
 
     def _listen_to(self, entity: Entity, attach: Callable[[EntityHost], None]) -> None:
         """Attach an entity; another thread may destroy it, or shut down, at this moment."""

@@ -62,10 +62,6 @@ class OwnEndpoints:
         self._core = core
         self.names = NameResolver(core)
         self._membership: Membership | None = None
-        #: The last membership, for the case that the node comes back, and `_changes` at its end.
-        self._parked: tuple[Membership, int] | None = None
-        #: How often an entity was made or destroyed.
-        self._changes = 0
         self._lock = threading.Lock()
         self._owned: dict[type, list[Any]] = {}
         self.default_callback_group: CallbackGroup = MutuallyExclusiveCallbackGroup()
@@ -316,7 +312,7 @@ class OwnEndpoints:
 
     def remove_waitable(self, waitable: Waitable) -> None:
         # Not destroyed: the waitable is the program's, which may add it to another node.
-        executor = waitable._serving_host()
+        executor = waitable._host()
         if executor is not None:
             executor.release(waitable)
         self._disown(waitable)
@@ -341,7 +337,6 @@ class OwnEndpoints:
         made: Any = owned
         with self._lock:
             self._owned.setdefault(kind, []).append(owned)
-            self._changes += 1
         made._on_destroy = self._disown
         membership = self._membership
         if membership is not None and isinstance(owned, Entity):
@@ -357,43 +352,27 @@ class OwnEndpoints:
             executor: What serves them.
             node_index: Their node's place in the executor's order.
         """
-        changes = self._changes
-        parked, self._parked = self._parked, None
-        membership = self._reusable(parked, executor, node_index)
+        membership = self._membership
+        former = None if membership is None else membership.host()
+        if membership is not None and former is not None:
+            if former is executor and membership.node_index == node_index:
+                executor.take_back(membership)
+                return
+            former.end_membership(membership)
         # First: what another thread creates from here on is adopted there. Adopting twice is
         # harmless.
-        self._membership = member = membership or Membership(executor, node_index)
-        if membership is not None:
-            executor.take_back(membership)
-            if self._changes == changes:
-                return
+        self._membership = membership = Membership(executor, node_index)
         for entity in self.entities():
-            executor.adopt(entity, member)
-
-    def _reusable(
-        self, parked: tuple[Membership, int] | None, executor: EntityHost, node_index: int
-    ) -> Membership | None:
-        """Return the last membership if the node comes back as it left, or else end it."""
-        if parked is None:
-            return None
-        membership, changes = parked
-        former = membership.host()
-        if former is executor and membership.node_index == node_index and changes == self._changes:
-            return membership
-        if former is not None:
-            former.abandon_parked()
-        return None
+            executor.adopt(entity, membership)
 
     def detach(self, executor: EntityHost) -> None:
         """Undo :meth:`attach`."""
-        changes = self._changes
-        membership, self._membership = self._membership, None
-        if membership is not None and executor.park(membership):
-            self._parked = membership, changes
+        membership = self._membership
+        if membership is not None and membership.host() is executor:
+            executor.park(membership)
 
     def _disown(self, owned: Any) -> None:
         with self._lock:
-            self._changes += 1
             for group in self._owned.values():
                 if owned in group:
                     group.remove(owned)

@@ -1,6 +1,7 @@
 """Nodes that leave an executor and come back, as in a loop of ``rclpy.spin_once``."""
 
 import gc
+import sys
 import threading
 import time
 import weakref
@@ -10,9 +11,11 @@ import pytest
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
 from rclpy.action import ActionClient, ActionServer
-from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.timer import Timer
+from rclpy.waitable import Waitable
 from std_msgs.msg import Int32
 
 
@@ -271,24 +274,137 @@ def test_a_node_leaves_while_its_group_is_busy(node, context, send):
     executor.shutdown()
 
 
-def test_entities_from_another_thread_are_served(node, executor, heard, send):
-    """Each is made while the node goes and comes, and serves one message at the end."""
-    more, made = [], threading.Event()
+@pytest.mark.parametrize("moment", ["before", "after"])
+def test_an_entity_that_is_made_while_its_node_leaves_is_served_later(
+    node, executor, monkeypatch, moment
+):
+    """Another thread makes it, just before or after the executor has parked the node."""
+    calls = []
+    executor.add_node(node)
+    scheduler = executor._rclpy_scheduler
+    original = scheduler.adopt
+
+    def adopt(*arguments):
+        if moment == "before":
+            executor.remove_node(node)
+        original(*arguments)
+        if moment == "after":
+            executor.remove_node(node)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(scheduler, "adopt", adopt)
+        guard = node.create_guard_condition(lambda: calls.append(1))
+    guard.trigger()
+    spin_once(executor, node)
+    guard.trigger()
+    spin_once(executor, node)
+    assert calls == [1, 1]
+
+
+def test_an_entity_that_is_destroyed_while_its_node_leaves(node, executor, heard, monkeypatch):
+    executor.add_node(node)
+    scheduler = executor._rclpy_scheduler
+    original = scheduler.release
+
+    def release(entity):
+        executor.remove_node(node)
+        original(entity)
+
+    timer = node.create_timer(0.0, lambda: None)
+    changes = noted_changes(executor, monkeypatch)
+    with monkeypatch.context() as patch:
+        patch.setattr(scheduler, "release", release)
+        node.destroy_timer(timer)
+    executor.spin_once(timeout_sec=0)
+    left = {wire for name, wire in changes if name == "detach"}
+    assert left != set()
+    spin_once(executor, node, 0)
+    assert {wire for name, wire in changes if name == "attach"} == left
+
+
+def test_timers_of_another_thread_come_and_go(node, executor):
+    """Nothing that it made is lost, and nothing raises in the thread that spins."""
+    lost, interval = [], sys.getswitchinterval()
 
     def make():
-        for index in range(100):
-            node.create_subscription(Int32, "more", lambda _, index=index: more.append(index), 10)
-        made.set()
+        for number in range(300):
+            node.destroy_timer(node.create_timer(3600.0, lambda: None))
+            came = threading.Event()
+            guard = node.create_guard_condition(came.set)
+            guard.trigger()
+            if not came.wait(60):
+                lost.append(number)
+            node.destroy_guard_condition(guard)
 
     maker = threading.Thread(target=make)
-    maker.start()
-    while not made.is_set():
-        spin_once(executor, node, 0)
-    maker.join(60)
-    node.create_publisher(Int32, "more", 10).publish(Int32())
-    for _ in range(100):
+    sys.setswitchinterval(1e-6)
+    try:
+        maker.start()
+        while maker.is_alive():
+            spin_once(executor, node, 0)
+    finally:
+        sys.setswitchinterval(interval)
+        maker.join(60)
+    assert lost == []
+
+
+@pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
+def test_a_waitable_moves_between_parked_nodes(node, executor, make_node):
+    other = make_node("other")
+    client = ActionClient(node, Fibonacci, "count")
+    spin_once(executor, node, 0)
+    node.remove_waitable(client)
+    other.add_waitable(client)
+    spin_once(executor, other, 0)
+    spin_once(executor, node, 0)
+    server = ActionServer(make_node("server"), Fibonacci, "count", lambda _: Fibonacci.Result())
+    answer = client.send_goal_async(Fibonacci.Goal())
+    with SingleThreadedExecutor(context=node.context) as serving:
+        serving.add_node(server._node)
+        serving.spin_once(timeout_sec=60)
+    while not answer.done():
+        spin_once(executor, other)
+    assert answer.result() is not None
+    server.destroy()
+    client.destroy()
+
+
+def test_a_destroyed_part_of_a_waitable_is_not_served(node, executor):
+    ran = []
+
+    class Ticking(Waitable):
+        def __init__(self):
+            super().__init__(ReentrantCallbackGroup())
+            self.timer = Timer(
+                callback=None,
+                callback_group=None,
+                timer_period_ns=1_000_000,
+                clock=node.get_clock(),
+                context=node.context,
+            )
+
+        def add_to_wait_set(self, wait_set):
+            wait_set.add_timer(self.timer)
+
+        def is_ready(self, wait_set):
+            return wait_set.is_ready("timer", 0)
+
+        def take_data(self):
+            return None
+
+        async def execute(self, _):
+            ran.append(1)
+
+    ticking = Ticking()
+    node.add_waitable(ticking)
+    while not ran:
         spin_once(executor, node)
-    assert sorted(more) == list(range(100))
+    ticking.timer.destroy()
+    del ran[:]
+    executor.add_node(node)
+    for _ in range(5):
+        executor.spin_once(timeout_sec=0.005)
+    assert ran == []
 
 
 def test_a_service_answers_in_a_loop_of_calls(node, executor, make_node, context):
