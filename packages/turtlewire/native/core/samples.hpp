@@ -243,7 +243,8 @@ class Samples {
     const std::size_t block = gallop(t, at / kBlock, last / kBlock + 1, begin);
     if (block != at / kBlock) {
       // Unsigned, because the difference of two stamps may not fit into one.
-      const auto after_ns = static_cast<std::uint64_t>(t) - static_cast<std::uint64_t>(begin(block));
+      const auto after_ns =
+          static_cast<std::uint64_t>(t) - static_cast<std::uint64_t>(begin(block));
       const double after = static_cast<double>(after_ns) * per_ns_;
       at = block * kBlock + (after < kBlock ? static_cast<std::size_t>(after) : kBlock - 1);
       at = std::clamp(at, head_, last);

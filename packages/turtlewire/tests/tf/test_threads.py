@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import itertools
 import math
 import sys
 import sysconfig
@@ -76,7 +77,7 @@ class Roles:
     def __init__(self, core: Any, buffer: Any) -> None:
         self.core = core
         self.buffer = buffer
-        self.calls = 0
+        self.calls = itertools.count()
         self.messages = None
         if core.__name__ == "turtlewire._native":
             example = msg.get_message("geometry_msgs/msg/TransformStamped")()
@@ -147,7 +148,7 @@ class Roles:
         remove()
 
     def count(self) -> None:
-        self.calls += 1
+        next(self.calls)
 
     def wait(self, i: int) -> None:
         found = self.buffer.lookup_transform("f0", f"signal{i}", timeout_ns=LONG_NS)
@@ -212,7 +213,7 @@ def test_threads_share_a_buffer(core: Any, rounds: int) -> None:
         ],
         rounds,
     )
-    assert roles.calls >= rounds
+    assert next(roles.calls) >= rounds
     roles.set_rows(rounds)
     check_sum(buffer.lookup_transform("f0", "f3").x, stamp(rounds + 7))
 
