@@ -159,7 +159,7 @@ class Scheduler:
                     self._listen_to(entity, entity._attach)
 
     def end_membership(self, membership: Membership) -> None:
-        """Detach the entities of a parked node, which joins an executor in another way."""
+        """Detach the entities of a parked node, which will not be taken back."""
         with self.lock:
             membership.is_over = True
             self.wait.detach_parked()
@@ -325,8 +325,8 @@ class Scheduler:
         None if nothing is ready or the group is busy.
         """
         if entity._serving_host() is not self:
-            # Destroyed, or its node has left the executor since it became ready. A node that comes
-            # back attaches it again, so that it is reported again.
+            # Destroyed, or its node has left the executor since it became ready. Detached, it is
+            # reported again when the node comes back.
             self.wait.detach_parked()
             return None
         if entity._GATED and not (

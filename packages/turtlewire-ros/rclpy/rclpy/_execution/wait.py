@@ -97,8 +97,9 @@ class ExecutorWait(Generic[T]):
         with self._lock:
             while self._parked:
                 membership = self._parked.pop()()
-                # Without a node, its endpoints are closed.
-                for wire in (membership is not None and membership.by_wire) or ():
+                if membership is None:  # its node is gone, and the endpoints are closed
+                    continue
+                for wire in membership.by_wire or ():
                     self._wait_set.detach(wire)
 
     def notify(self, entity: T) -> None:
