@@ -1,6 +1,7 @@
 """Keys of a pseudo terminal: byte by byte, within a time, and after the end."""
 
 import os
+import subprocess
 import sys
 import threading
 
@@ -66,3 +67,35 @@ def test_stop_ends_this_read_and_all_later_ones(terminal):
 def test_no_terminal_is_an_error(tmp_path):
     with open(tmp_path / "file", "w") as file, pytest.raises(OSError):
         PosixKeyboard(file.fileno())
+
+
+READS_WHILE_A_SIGNAL_COMES = """
+import ctypes, functools, signal
+from turtlewire.terminal.posix_keyboard import PosixKeyboard
+
+class LateSignal:
+    # Called by select() in C: no handler in Python runs before the wait.
+    fileno = staticmethod(functools.partial(getattr(ctypes.CDLL(None), "raise"), signal.SIGQUIT))
+
+keyboard = PosixKeyboard(0)
+signal.signal(signal.SIGQUIT, lambda *_: keyboard.stop())
+keyboard._fd = LateSignal()
+assert keyboard.read() == b""
+assert signal.set_wakeup_fd(-1) == -1
+"""
+
+
+def test_a_signal_just_before_the_wait_ends_it(terminal):
+    reader = [sys.executable, "-c", READS_WHILE_A_SIGNAL_COMES]
+    subprocess.run(reader, stdin=terminal[1], check=True, timeout=ENOUGH_S)
+
+
+def test_a_read_on_another_thread_leaves_signals_alone(terminal):
+    ours, theirs = terminal
+    typed = []
+    with PosixKeyboard(theirs) as keyboard:
+        thread = threading.Thread(target=lambda: typed.append(keyboard.read()))
+        thread.start()
+        os.write(ours, b"x")
+        thread.join()
+    assert typed == [b"x"]

@@ -9,6 +9,7 @@ import os
 import select
 import signal
 import sys
+import threading
 from collections.abc import Iterator
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
@@ -46,6 +47,7 @@ class PosixKeyboard:
         except termios.error as error:
             raise OSError(*error.args) from error
         self._wake_read, self._wake_write = os.pipe()
+        os.set_blocking(self._wake_write, False)  # the handler of signals in C must not block
         self._stopped = False
 
     def __enter__(self) -> Self:
@@ -100,7 +102,7 @@ class PosixKeyboard:
 
     def _resume(self, *_: object) -> None:
         self._take()
-        os.write(self._wake_write, b"\0")
+        self._wake()
 
     def read(self) -> bytes:
         """Wait for the next byte; empty when the terminal is gone or :meth:`stop` was called."""
@@ -118,7 +120,8 @@ class PosixKeyboard:
         return self._next(64, seconds)
 
     def _next(self, most: int, seconds: float | None) -> bytes | None:
-        ready, _, _ = select.select([self._fd, self._wake_read], [], [], seconds)
+        with self._woken_by_signals():
+            ready, _, _ = select.select([self._fd, self._wake_read], [], [], seconds)
         if self._wake_read in ready:
             if self._stopped:
                 return b""
@@ -134,7 +137,26 @@ class PosixKeyboard:
     def stop(self) -> None:
         """End the present and all later reads. Safe from any thread."""
         self._stopped = True
-        os.write(self._wake_write, b"\0")
+        self._wake()
+
+    def _wake(self) -> None:
+        with contextlib.suppress(BlockingIOError):  # a full pipe wakes as well
+            os.write(self._wake_write, b"\0")
+
+    @contextlib.contextmanager
+    def _woken_by_signals(self) -> Iterator[None]:
+        """Let a signal end the wait within the block, so that its handler can run.
+
+        One that comes just before the main thread begins to wait does not interrupt the wait.
+        """
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        former = signal.set_wakeup_fd(self._wake_write, warn_on_full_buffer=False)
+        try:
+            yield
+        finally:
+            signal.set_wakeup_fd(former)
 
 
 @contextlib.contextmanager
