@@ -253,7 +253,8 @@ def uninstall_signal_handlers() -> None:
     watcher.close()
 
 
-_mask_before_fork: set[int | signal.Signals] = set()
+#: The signal mask of a thread that forks; several may at once.
+_forking = threading.local()
 
 
 def _before_fork() -> None:
@@ -261,16 +262,15 @@ def _before_fork() -> None:
 
     One to the child must not come through the pipe that it has in common with its parent.
     """
-    global _mask_before_fork  # noqa: PLW0603 - as above
     if sys.platform == "win32":
         return
-    _mask_before_fork = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    _forking.mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
 
 
 def _after_fork_in_parent() -> None:
     if sys.platform == "win32":
         return
-    signal.pthread_sigmask(signal.SIG_SETMASK, _mask_before_fork)
+    signal.pthread_sigmask(signal.SIG_SETMASK, _forking.mask)
 
 
 def _after_fork_in_child() -> None:
@@ -280,7 +280,7 @@ def _after_fork_in_child() -> None:
     watcher, _watcher, _options = _watcher, None, SignalHandlerOptions.NO
     if watcher is not None:
         watcher.forget()
-    signal.pthread_sigmask(signal.SIG_SETMASK, _mask_before_fork)
+    signal.pthread_sigmask(signal.SIG_SETMASK, _forking.mask)
 
 
 def _end() -> None:

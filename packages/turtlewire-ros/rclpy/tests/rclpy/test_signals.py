@@ -566,6 +566,36 @@ def test_a_forked_child_does_not_shut_its_parent_down(start):
     assert program.finish() == (0, "True True\n", "")
 
 
+FORKS = """
+import os, signal, threading, warnings
+
+warnings.simplefilter("ignore", DeprecationWarning)  # Python 3.12: of fork() with threads
+both = threading.Barrier(2)
+os.register_at_fork(before=both.wait)  # runs after rclpy's function, which is registered later
+
+import rclpy
+
+def fork(blocked):
+    signal.pthread_sigmask(signal.SIG_BLOCK, blocked)
+    child = os.fork()
+    if child == 0:
+        os._exit(signal.pthread_sigmask(signal.SIG_BLOCK, ()) != blocked)
+    same = signal.pthread_sigmask(signal.SIG_BLOCK, ()) == blocked
+    print(os.waitpid(child, 0)[1] == 0 and same)
+
+threads = [threading.Thread(target=fork, args=(mask,)) for mask in (set(), {signal.SIGUSR1})]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork processes")
+def test_threads_that_fork_at_once_keep_their_signal_masks():
+    assert run_python(FORKS).stdout == "True\nTrue\n"
+
+
 @needs_cyclone_dds
 def test_a_program_that_never_shuts_down_ends(start):
     program = start(
