@@ -12,16 +12,6 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from types import FunctionType
 from typing import Any, NoReturn, TypeVar, cast
 
-__all__ = [
-    "call_error",
-    "explain_call",
-    "explain_calls",
-    "frame_error",
-    "hint_at",
-    "near_name",
-    "ros_time_error",
-]
-
 #: Such a number cannot be seconds, from 1970 until far in the future.
 _SURELY_NANOSECONDS = 10**12
 

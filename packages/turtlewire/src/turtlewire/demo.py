@@ -17,8 +17,6 @@ from importlib.util import find_spec
 
 from turtlewire.program import program
 
-__all__ = ["main"]
-
 _LAUNCH = ("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
 #: Other packages that the demo needs, and their folders in the sources.
 _NEEDED = {

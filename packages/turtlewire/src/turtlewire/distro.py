@@ -11,8 +11,6 @@ import os
 from collections.abc import Mapping
 from enum import IntEnum
 
-__all__ = ["DEFAULT_DISTRO", "JAZZY", "KILTED", "LYRICAL", "Distro", "current_distro", "since"]
-
 
 class Distro(IntEnum):
     """The distributions whose names, texts and behaviour turtlewire has, in order of release."""

@@ -6,8 +6,6 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 
-__all__ = ["call_guarded"]
-
 #: Bounds the table for programs that generate code; beyond it, lines are reported again.
 _MOST_PLACES = 1000
 _reported: set[tuple[str, int, type[BaseException]]] = set()

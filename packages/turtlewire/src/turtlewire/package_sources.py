@@ -13,8 +13,6 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Any
 
-__all__ = ["explain_missing_modules", "source_hint"]
-
 #: Repositories, each with its branch for Jazzy and the packages in it that work without a compiler.
 _REPOSITORIES = (
     ("ANYbotics/grid_map", "jazzy", "grid_map_msgs"),

@@ -9,16 +9,6 @@ from typing import Any
 
 from turtlewire.call_errors import near_name
 
-__all__ = [
-    "BAGS",
-    "PICTURES",
-    "TRAJECTORIES",
-    "missing_file",
-    "near_path",
-    "path_text",
-    "refuse_other_formats",
-]
-
 
 def path_text(path: Any, argument: str = "path", what: str = "path") -> str:
     """Return a path as str.

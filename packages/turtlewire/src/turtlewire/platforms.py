@@ -6,8 +6,6 @@ import functools
 import os
 import sys
 
-__all__ = ["asked_core", "in_browser"]
-
 _UNKNOWN = "turtlewire: TURTLEWIRE_CORE is {!r}; it can be 'native' or 'python'. It is ignored."
 
 

@@ -12,14 +12,6 @@ from collections.abc import Iterator
 from importlib import import_module
 from typing import Any
 
-__all__ = [
-    "Entry",
-    "PluginException",
-    "declared",
-    "get_upper_bound_caret_version",
-    "satisfies_version",
-]
-
 
 class Entry:
     """A line of an ``entry_points.txt``: a name, and the place of an object.

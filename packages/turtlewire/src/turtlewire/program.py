@@ -18,8 +18,6 @@ import threading
 from collections.abc import Callable
 from typing import Any, ParamSpec, TextIO, TypeVar
 
-__all__ = ["open_output", "program"]
-
 _Arguments = ParamSpec("_Arguments")
 _Status = TypeVar("_Status", bound="int | str | None")
 

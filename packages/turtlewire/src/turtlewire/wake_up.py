@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import asyncio
 
-__all__ = ["LoopWakeUp", "WakeUp"]
-
 
 class WakeUp:
     """Ends a wait of another thread; each wait clears it.

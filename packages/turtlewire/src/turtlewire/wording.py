@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-__all__ = ["Wording", "wording"]
-
 
 class Wording(NamedTuple):
     """The words of hints, by the interface through which a program uses a buffer.

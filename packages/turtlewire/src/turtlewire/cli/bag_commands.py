@@ -21,8 +21,6 @@ from turtlewire.terminal.parser import (
     tf_topics,
 )
 
-__all__ = ["add_bag_commands", "what_to_do_with_bag"]
-
 _FORMATS = ("tum", "kitti", "euroc", "csv")
 _ALIGNMENTS = ("none", "origin", "yaw", "se3", "sim3")
 _RELATIONS = (

@@ -7,8 +7,6 @@ from typing import Any
 
 from turtlewire.terminal.parser import complete_bags, complete_files, reporting_errors
 
-__all__ = ["add_bag_edits"]
-
 _TIMES = (
     "A TIME is an offset from the start of the bag (10s, 1m20s, 500ms), a date "
     "(2024-05-01T12:00:00Z, local time without a zone), or nanoseconds since 1970."

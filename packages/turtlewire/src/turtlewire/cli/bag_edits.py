@@ -19,13 +19,6 @@ if TYPE_CHECKING:
 
     from turtlewire.bag import BagOptions, BagOverview, TopicOverview, WrittenBags
 
-__all__ = [
-    "run_copy",
-    "run_merge",
-    "run_split",
-    "show_info",
-]
-
 
 def show_info(path: str, *, as_json: bool) -> str:
     """Return what a bag holds, as text or as one JSON object.

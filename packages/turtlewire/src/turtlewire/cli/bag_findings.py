@@ -22,8 +22,6 @@ from turtlewire.wire.qos import Durability
 if TYPE_CHECKING:
     from turtlewire.bag import Bag, TransformReport
 
-__all__ = ["examine_bag"]
-
 _REINDEX = "`ros2 bag reindex {}` writes metadata.yaml; the intact files are read without it."
 _DAMAGED = (
     "The intact part was read. Copy the file again; or `ros2 bag reindex FOLDER` makes a file that "

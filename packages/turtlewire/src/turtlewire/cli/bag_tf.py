@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from turtlewire.cli.frame_picture import Picture
     from turtlewire.tf.links import Link
 
-__all__ = ["show_transforms"]
-
 
 def show_transforms(
     path: str, topics: str | list[str], static_topics: str | list[str], *, as_json: bool

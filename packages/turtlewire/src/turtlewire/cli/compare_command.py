@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
     from turtlewire.trajectory import Comparison, Plot, PoseErrors
 
-__all__ = ["run_compare"]
-
 
 @printed_remarks()
 def run_compare(args: argparse.Namespace) -> int:

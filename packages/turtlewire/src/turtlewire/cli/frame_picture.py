@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from turtlewire.tf.frame_tree import FrameTree
     from turtlewire.tf.links import Link
 
-__all__ = ["Picture", "Row", "take_picture"]
-
 #: Smaller stamps are simulated time, not system time [ns].
 _WALL_TIME_FROM_NS = 1_000_000_000 * 10**9
 #: A link is stale when its newest sample is older than this [s], and than this many periods of its

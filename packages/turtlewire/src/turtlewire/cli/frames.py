@@ -29,13 +29,6 @@ if TYPE_CHECKING:
     from turtlewire.tf.tf_topics import TfTopics
     from turtlewire.wire.base import Graph
 
-__all__ = [
-    "ScrollKeys",
-    "Window",
-    "open_scroll_keys",
-    "show_frames",
-]
-
 #: What terminals send for the keys that scroll; letters are those of less and vi.
 _NAMES = {
     "\033[A": "up",

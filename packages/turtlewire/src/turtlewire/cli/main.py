@@ -29,8 +29,6 @@ from turtlewire.terminal.parser import (
 if TYPE_CHECKING:
     from turtlewire.tf.tf_topics import TfTopics
 
-__all__ = ["main"]
-
 #: Entry points of other distributions: functions that add a command to argparse's subparsers.
 _COMMANDS = "turtlewire.commands"
 #: The distributions that have these commands.

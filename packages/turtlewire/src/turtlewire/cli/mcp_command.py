@@ -6,8 +6,6 @@ import argparse
 import sys
 from typing import Any
 
-__all__ = ["add_mcp"]
-
 _MISSING = (
     "turtlewire mcp needs the official SDK of the Model Context Protocol, version 2: "
     "pip install 'turtlewire[mcp]', or pip install 'mcp>=2' pypdfium2"

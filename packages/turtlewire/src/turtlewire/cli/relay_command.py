@@ -10,8 +10,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from turtlewire.relay.side import End
 
-__all__ = ["add_relay"]
-
 _SAME = (
     "both ends are {}: add --namespace NS, and its names also appear in that namespace of the same "
     "network"

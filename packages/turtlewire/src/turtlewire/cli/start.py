@@ -6,8 +6,6 @@ from __future__ import annotations
 import os
 import signal
 
-__all__ = ["main"]
-
 _INTERRUPTED = 130
 
 

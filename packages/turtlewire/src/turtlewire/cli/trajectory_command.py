@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from turtlewire.trajectory import Trajectory
 
-__all__ = ["run_trajectory"]
-
 _MOST_GAPS = 10
 
 

@@ -16,14 +16,6 @@ if TYPE_CHECKING:
     from turtlewire.tf.buffer import Buffer
     from turtlewire.trajectory import Trajectory
 
-__all__ = [
-    "TrajectoryReader",
-    "TrajectorySource",
-    "complete_names",
-    "parse_source",
-    "printed_remarks",
-]
-
 #: How much of a bag completion looks at.
 _COMPLETION_NS = 10_000_000_000
 

@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 
     from turtlewire.wire.base import Graph
 
-__all__ = ["as_json", "examine", "full_report", "report"]
-
 _LISTEN_S = 2.0
 
 

@@ -22,14 +22,6 @@ if TYPE_CHECKING:
     from turtlewire.doctor.fast_dds_search import Participant
     from turtlewire.wire.base import EndpointInfo, Graph
 
-__all__ = [
-    "command_of",
-    "fast_dds_environment",
-    "fast_dds_findings",
-    "out_of_reach",
-    "sharing_processes",
-]
-
 _SEGMENTS = Path("/dev/shm")  # noqa: S108 - nothing is written there
 _PROCESSES = Path("/proc")
 _SEGMENT = re.compile(r"/fast(?:rtps|dds)_port(\d+)")

@@ -21,13 +21,6 @@ from turtlewire.wire.cyclone.ports import ports_of, unicast_ports_of
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-__all__ = [
-    "FastDdsSearch",
-    "Participant",
-    "Question",
-    "read_participants",
-]
-
 _MAGIC, _VERSION, _VENDOR = b"RTPS", b"\x02\x02", b"\x00\x00"
 _HEADER_SIZE = 20
 _DATA = 0x15

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["Finding", "note", "problem"]
-
 
 class Finding(NamedTuple):
     """A fault, or something worth knowing.

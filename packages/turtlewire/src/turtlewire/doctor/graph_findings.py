@@ -19,8 +19,6 @@ from turtlewire.wire.services import ONE_MIDDLEWARE, advice
 if TYPE_CHECKING:
     from turtlewire.wire.base import EndpointInfo, ForeignServer, Graph
 
-__all__ = ["graph_findings", "owner_of"]
-
 _RENAME = "Rename all but one: --ros-args -r __node:=NAME"
 _ONE_TYPE = "Messages pass only between endpoints of one type: remap one of the topics."
 _ONE_QOS = "Give both the same QoS profile, or the subscription the weaker one."

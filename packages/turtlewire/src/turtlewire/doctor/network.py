@@ -7,16 +7,6 @@ import socket
 from collections.abc import Iterable
 from pathlib import Path
 
-__all__ = [
-    "GROUP",
-    "domains_of",
-    "multicast_works",
-    "named_domains",
-    "other_domains",
-    "other_domains_hint",
-    "udp_ports",
-]
-
 # How DDS computes its ports: a domain has 250, of which participants take those from the tenth on.
 _FIRST_PORT, _PORTS_OF_DOMAIN, _FIRST_OF_PARTICIPANTS = 7400, 250, 10
 #: The ports of the domains above it are among those that systems assign to any program.

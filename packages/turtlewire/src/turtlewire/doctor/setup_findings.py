@@ -25,14 +25,6 @@ from turtlewire.wire.libddsc import find_libddsc
 if TYPE_CHECKING:
     from turtlewire.wire.base import Graph
 
-__all__ = [
-    "looks_for_others",
-    "network_findings",
-    "only_this_host",
-    "setup_findings",
-    "wait_for_graph",
-]
-
 _PLAIN_CORE = "The plain-Python core is in use; lookups are many times slower."
 _INSTALL_COMPILER = (
     "Install g++ and the Python headers (Debian: g++ python3-dev), then install turtlewire again."

@@ -25,13 +25,6 @@ if TYPE_CHECKING:
     from turtlewire.tf.tf_topics import TfTopics
     from turtlewire.wire.base import Graph
 
-__all__ = [
-    "Gaps",
-    "find_gaps",
-    "recorded_findings",
-    "tf_findings",
-]
-
 #: With fewer steps, random steps look periodic.
 _FEWEST_STEPS = 10
 #: Stamps of one moment: what a node publishes in one turn.

@@ -22,16 +22,6 @@ from turtlewire.wire.qos import Durability, QoS, Reliability
 if TYPE_CHECKING:
     from turtlewire.wire.base import Context, EndpointInfo, Graph, MessageInfo
 
-__all__ = [
-    "FASTEST_M_S",
-    "JITTER_NS",
-    "LEAP_M",
-    "TfListener",
-    "TfTraffic",
-    "frame_names",
-    "tf_publishers",
-]
-
 _DEFAULT = TfTopics()
 _TYPE = "tf2_msgs/msg/TFMessage"
 _CLOCK_TYPE = "rosgraph_msgs/msg/Clock"

@@ -14,14 +14,6 @@ import re
 
 from turtlewire.distro import JAZZY, KILTED, LYRICAL, Distro, current_distro
 
-__all__ = [
-    "bundled_definitions",
-    "bundled_file",
-    "bundled_interfaces",
-    "bundled_packages",
-    "is_listed",
-]
-
 _HERE = os.path.dirname(__file__)
 _FOLDER = os.path.join(_HERE, "interfaces")
 _HEADING = re.compile(r"^=== (\S+)\n", re.MULTILINE)

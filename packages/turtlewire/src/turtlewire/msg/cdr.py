@@ -15,8 +15,6 @@ from turtlewire.msg.message import Message
 if TYPE_CHECKING:
     from turtlewire.msg.values import Cdr
 
-__all__ = ["deserialize", "encode", "serialize"]
-
 _MessageT = TypeVar("_MessageT", bound=Message)
 
 _LITTLE_ENDIAN = b"\x00\x01"

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.definition import Field
     from turtlewire.msg.message import Message
 
-__all__ = ["turn_on_checks"]
-
 _FLOAT_LIMITS = {"float": 3.402823466e38, "double": 1.7976931348623157e308}
 
 _checked: dict[type[Message], type[Message]] = {}

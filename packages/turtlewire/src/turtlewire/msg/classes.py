@@ -43,18 +43,6 @@ else:  # the defaults came with Python 3.13
     _RequestT, _ResponseT = TypeVar("_RequestT"), TypeVar("_ResponseT")
     _GoalT, _ResultT, _FeedbackT = TypeVar("_GoalT"), TypeVar("_ResultT"), TypeVar("_FeedbackT")
 
-__all__ = [
-    "Action",
-    "ActionImpl",
-    "Service",
-    "get_action",
-    "get_interface_class",
-    "get_message",
-    "get_service",
-    "module_name",
-    "type_name",
-]
-
 _messages: dict[str, type[Message]] = {}
 _services: dict[str, type[Service]] = {}
 _actions: dict[str, type[Action]] = {}

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.definition import Field, MessageDefinition
     from turtlewire.msg.message import Message
 
-__all__ = ["make_constructor"]
-
 
 def make_constructor(
     definition: MessageDefinition, class_of: Callable[[str], type[Message]]

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.message import Message
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["Decoder", "make_decoder", "numbers"]
-
 
 def make_decoder(
     cls: type[Message],

@@ -12,16 +12,6 @@ from turtlewire.msg.types import AbstractNestedType, BasicType, BoundedSequence,
 if TYPE_CHECKING:
     from turtlewire.msg.types import AbstractType
 
-__all__ = [
-    "ActionDefinition",
-    "Constant",
-    "Field",
-    "MessageDefinition",
-    "ServiceDefinition",
-    "nested_types",
-    "split_name",
-]
-
 
 def split_name(full_name: str) -> tuple[str, str, str]:
     """Split ``"pkg/msg/Name"`` into its three parts."""

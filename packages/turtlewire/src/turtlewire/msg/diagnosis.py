@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["check_bytes", "check_message"]
-
 
 def check_bytes(definition: MessageDefinition, data: bytes, order: str) -> None:
     """Walk through encoded bytes.

@@ -33,18 +33,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.types import AbstractType
     from turtlewire.msg.values import Cdr
 
-__all__ = [
-    "CODES",
-    "HEADER",
-    "LARGE",
-    "SIZES",
-    "array_bytes",
-    "as_bool",
-    "byte_string",
-    "make_encoder",
-    "swapped",
-]
-
 LARGE = 1024
 """Longer sequences of numbers are not copied; ``done`` collects the parts of the result."""
 

@@ -37,8 +37,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.message import Message
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["Evolution", "differs", "older_evolution"]
-
 #: Fields that were added to messages of ROS 2 since Dashing, until Jazzy.
 _ADDED = {
     "rcl_interfaces/msg/ParameterDescriptor": {"dynamic_typing"},

@@ -39,14 +39,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.definition import Field, MessageDefinition, ServiceDefinition
     from turtlewire.msg.types import AbstractType
 
-__all__ = [
-    "generate_package",
-    "import_lines",
-    "module_stub",
-    "package_name",
-    "write_modules",
-]
-
 _LINE_LENGTH = 100
 
 

@@ -14,8 +14,6 @@ from turtlewire.msg.types import AbstractNestedType, AbstractType, type_in_msg_f
 if TYPE_CHECKING:
     from turtlewire.msg.idl_reader import Notes
 
-__all__ = ["idl_to_text"]
-
 _PARTS = {
     "msg": ("",),
     "srv": ("_Request", "_Response"),

@@ -25,17 +25,6 @@ from turtlewire.msg.types import (
     UnboundedWString,
 )
 
-__all__ = [
-    "BASIC_TYPES",
-    "IdlConstant",
-    "IdlMember",
-    "IdlReader",
-    "IdlStructure",
-    "Notes",
-    "number_value",
-    "unescaped",
-]
-
 _TOKEN = re.compile(
     r"(?P<include>\#\s*include\s*[<\"](?P<path>[^>\"\n]*)[>\"])"
     r"|(?P<space>\s+|//[^\n]*|/\*.*?\*/|\#[^\n]*)"

@@ -27,8 +27,6 @@ from turtlewire.msg.types import (
 if TYPE_CHECKING:
     from turtlewire.msg.message import Message
 
-__all__ = ["cdr_from_json", "json_from_message", "json_value", "message_from_values"]
-
 _SPECIAL = {"NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
 _BYTES = {"octet", "uint8"}
 

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.types import AbstractType
     from turtlewire.msg.values import Cdr
 
-__all__ = ["Message", "missing_fields"]
-
 
 class _FieldTypes:
     """``_fields_and_field_types``, which programs read although it is private in ROS 2."""

@@ -36,15 +36,6 @@ from turtlewire.msg.types import (
     UnboundedWString,
 )
 
-__all__ = [
-    "parse_action",
-    "parse_message",
-    "parse_service",
-    "parse_type",
-    "parse_value",
-    "without_comment",
-]
-
 _SEPARATOR = "---"
 
 #: What a quoted value follows.

@@ -31,22 +31,6 @@ from turtlewire.msg.parser import parse_action, parse_message, parse_service
 from turtlewire.package_sources import source_hint
 from turtlewire.path_arguments import near_path, path_text
 
-__all__ = [
-    "KINDS",
-    "Definition",
-    "add_package",
-    "class_advice",
-    "define",
-    "interface_path",
-    "interface_text",
-    "interfaces",
-    "interfaces_in",
-    "load_action",
-    "load_interface",
-    "load_message",
-    "load_service",
-]
-
 KINDS = ("msg", "srv", "action")
 
 Definition = MessageDefinition | ServiceDefinition | ActionDefinition

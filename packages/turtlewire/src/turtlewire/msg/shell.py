@@ -10,8 +10,6 @@ from turtlewire.errors import InterfaceError
 from turtlewire.msg.classes import get_interface_class, module_name
 from turtlewire.package_sources import explain_missing_modules
 
-__all__ = ["lazy_classes"]
-
 
 def lazy_classes(home: str) -> Callable[[str], type]:
     """Return the ``__getattr__`` of a module of interfaces.

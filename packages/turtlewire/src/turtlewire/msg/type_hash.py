@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.registry import Definition
     from turtlewire.msg.types import AbstractType
 
-__all__ = ["field_type_parts", "members", "referenced_types", "type_hash"]
-
 _TYPE_IDS = {
     "int8": 2,
     "uint8": 3,

@@ -6,30 +6,6 @@
 
 from __future__ import annotations
 
-__all__ = [
-    "FLOATING_POINT_TYPES",
-    "INTEGER_RANGES",
-    "TYPE_CODES",
-    "AbstractGenericString",
-    "AbstractNestableType",
-    "AbstractNestedType",
-    "AbstractSequence",
-    "AbstractString",
-    "AbstractType",
-    "AbstractWString",
-    "Array",
-    "BasicType",
-    "BoundedSequence",
-    "BoundedString",
-    "BoundedWString",
-    "NamedType",
-    "NamespacedType",
-    "UnboundedSequence",
-    "UnboundedString",
-    "UnboundedWString",
-    "type_in_msg_file",
-]
-
 INTEGER_RANGES = {
     "int8": (-(2**7), 2**7 - 1),
     "uint8": (0, 2**8 - 1),

@@ -35,23 +35,6 @@ if TYPE_CHECKING:
 
     from turtlewire.msg.types import AbstractType
 
-__all__ = [
-    "UNIT_SIZE",
-    "Cdr",
-    "array_content",
-    "array_of_bytes",
-    "array_values",
-    "converter",
-    "element_code",
-    "numpy_name",
-    "raw_name",
-    "scalar_default",
-    "text_of_units",
-    "to_array",
-    "to_numpy",
-    "units_of_text",
-]
-
 Cdr = Union[bytes, bytearray, "tuple[Buffer, ...]"]
 """An encoded message: its bytes, or the buffers that make it up one after the other.
 

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractString, AbstractType
 
-__all__ = ["WrittenRecords"]
-
 
 class WrittenRecords:
     """The messages of one type as plain objects with the fields that their writer had.

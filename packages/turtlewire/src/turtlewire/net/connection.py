@@ -36,8 +36,6 @@ if TYPE_CHECKING:
 
     AnyClosing = TypeVar("AnyClosing", bound=Closes)
 
-__all__ = ["Connection", "connect"]
-
 _NO_TURN = (0.0, 0.0, 0.0, 1.0)
 
 

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from turtlewire.tf.datetimes import Span
     from turtlewire.wire import base
 
-__all__ = ["Broadcaster", "Publisher"]
-
 
 @explain_calls
 class Publisher:

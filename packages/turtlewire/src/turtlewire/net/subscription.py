@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from turtlewire.wire import base
     from turtlewire.wire.records import MessageInfo
 
-__all__ = ["Subscription"]
-
 #: A subscription that matches the existing publishers.
 _FITTING = QoS(
     reliability=Reliability.BEST_AVAILABLE,

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from .side import Seen, Side
 
-__all__ = ["Direction", "Ways"]
-
 _Key = tuple[str, str]  # name at the near end, and type
 
 

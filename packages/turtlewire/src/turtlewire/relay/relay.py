@@ -18,13 +18,6 @@ from .side import Mark, Side
 if TYPE_CHECKING:
     from .side import End
 
-__all__ = [
-    "FramePrefix",
-    "Plan",
-    "Relay",
-    "Renaming",
-]
-
 
 class FramePrefix:
     """Renames the frames of ``tf2_msgs/msg/TFMessage``.

@@ -18,14 +18,6 @@ if TYPE_CHECKING:
 
     from .side import Side
 
-__all__ = [
-    "ServiceRoute",
-    "TopicRoute",
-    "installed_hash",
-    "service_types",
-]
-
-
 #: Unused endpoints stay open for this time, so that messages sent just before still arrive.
 _LINGER_S = 2.0
 #: How long a message waits for the discovery of its publisher.

@@ -21,15 +21,6 @@ from turtlewire.wire.report import warn_once
 if TYPE_CHECKING:
     from turtlewire.wire.base import EndpointInfo, Entity, Node, NodeInfo, Waitable
 
-__all__ = [
-    "End",
-    "Mark",
-    "Seen",
-    "Side",
-    "is_relayed",
-    "parse_end",
-]
-
 _MIDDLEWARES = {"cyclonedds": "rmw_cyclonedds_cpp", "zenoh": "rmw_zenoh_cpp"}
 _FAST_DDS = {"fastdds", "fastrtps", "rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp"}
 

@@ -14,8 +14,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-__all__ = ["ENDING_SIGNALS", "ConsoleKeyboard", "foreground_terminal", "signals_for_this_thread"]
-
 #: Windows has none that would have to be handled.
 ENDING_SIGNALS: tuple[int, ...] = ()
 

@@ -17,19 +17,6 @@ from turtlewire.terminal.suggestion import did_you_mean
 if TYPE_CHECKING:
     from typing import NoReturn
 
-__all__ = [
-    "INVALID_CHOICE",
-    "SuggestingParser",
-    "add_robot_topics",
-    "add_tf_topics",
-    "complete_bags",
-    "complete_files",
-    "full_topic_name",
-    "reporting_errors",
-    "seconds",
-    "tf_topics",
-]
-
 #: argparse's message about a word that is not one of the known ones.
 INVALID_CHOICE = re.compile(r"invalid choice: '([^']*)' \(choose from")
 _UNRECOGNIZED = re.compile(r"unrecognized arguments: (\S+)")

@@ -7,8 +7,6 @@ direction marks that show a line's words in another order. Print none of it unes
 
 from __future__ import annotations
 
-__all__ = ["printable", "printable_lines"]
-
 #: ``str.isprintable`` refuses these, and languages need them: two spaces, and the joiners of
 #: Persian, Hindi and emoji.
 _HARMLESS = frozenset(

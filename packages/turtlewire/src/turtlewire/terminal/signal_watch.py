@@ -8,8 +8,6 @@ import socket
 import threading
 from collections.abc import Callable, Collection, Iterator
 
-__all__ = ["watched"]
-
 
 @contextlib.contextmanager
 def watched(numbers: Collection[int], act: Callable[[], object]) -> Iterator[None]:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-__all__ = ["did_you_mean"]
-
 #: Names that are so much less similar than the nearest one are noise.
 _WORSE = 0.15
 

@@ -21,15 +21,6 @@ from typing import Annotated, Any, NamedTuple, Protocol, TypeGuard
 
 from turtlewire.terminal.printable import printable
 
-__all__ = [
-    "Between",
-    "CommandError",
-    "CommandReader",
-    "CommandSession",
-    "PageSession",
-    "is_finite_number",
-]
-
 if typing.TYPE_CHECKING:
     from collections.abc import Mapping
 

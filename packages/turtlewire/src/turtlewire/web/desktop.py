@@ -6,15 +6,6 @@ import argparse
 import os
 import sys
 
-__all__ = [
-    "DEFAULT_PORT",
-    "add_page_options",
-    "desktop_is_there",
-    "open_browser",
-    "wanted_lan",
-    "wanted_port",
-]
-
 #: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in
 #: use.
 DEFAULT_PORT = 7070

@@ -18,19 +18,6 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = [
-    "EncodedFile",
-    "Encoder",
-    "File",
-    "WebContent",
-    "find_files",
-    "has_tag",
-    "headers",
-    "policy",
-    "script_hash",
-    "takes_gzip",
-]
-
 #: Suffix to media type. A page consists of nothing else.
 _MEDIA_TYPES = {
     ".css": "text/css; charset=utf-8",

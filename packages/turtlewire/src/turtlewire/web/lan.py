@@ -12,8 +12,6 @@ import struct
 import sys
 from collections.abc import Callable, Iterable
 
-__all__ = ["interface_addresses", "invite", "lan_addresses", "new_token", "path_below", "qr_code"]
-
 _SIOCGIFADDR = 0x8915  # <linux/sockios.h>
 #: Lower case without i, l, o, 0 and 1, for typing the address: 79 bits in 16 letters.
 _LETTERS = "abcdefghjkmnpqrstuvwxyz23456789"

@@ -7,8 +7,6 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-__all__ = ["LoopCalls"]
-
 
 class LoopCalls:
     """Calls functions on the thread of the running loop, until it is closed."""

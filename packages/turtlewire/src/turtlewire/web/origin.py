@@ -16,8 +16,6 @@ from __future__ import annotations
 import re
 import socket
 
-__all__ = ["proxied_refusal", "refusal"]
-
 _LOOPBACK_NAMES = frozenset({"localhost", "[::1]"})
 #: A name or an IPv6 address, with or without a port. The response quotes it in a header.
 _HOST = re.compile(r"([a-z0-9._-]+|\[[0-9a-f:.]+\])(:[0-9]+)?", re.IGNORECASE)

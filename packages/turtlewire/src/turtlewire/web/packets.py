@@ -12,8 +12,6 @@ import struct
 from collections.abc import Mapping
 from typing import Any
 
-__all__ = ["encode_packet"]
-
 _LENGTH = struct.Struct("<I")
 _ALIGNMENT = 8
 #: Formats of the buffer protocol.

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
     from turtlewire.web.commands import PageSession
 
-__all__ = ["LIVE_PATH", "Server"]
-
 #: Where pages open their WebSocket.
 LIVE_PATH = "/live"
 #: Longest message that a page may send [bytes].

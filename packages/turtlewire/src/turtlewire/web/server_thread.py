@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from turtlewire.web.loop_calls import LoopCalls
 
-__all__ = ["ServerThread", "listening_socket", "until_one_ends"]
-
 #: How long a client may take to answer the closing of its WebSocket [s].
 _CLOSE_TIMEOUT = 0.5
 #: System errors that pass when files or memory are freed; the server tries again each second.

@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     )
     from .qos import QoS
 
-__all__ = ["CheckedNode"]
-
 
 class CheckedNode(Node):
     """Creates endpoints until it is closed; subclasses define the ``_create`` methods."""

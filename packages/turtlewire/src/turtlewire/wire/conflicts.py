@@ -20,15 +20,6 @@ if TYPE_CHECKING:
     from .base import EndpointInfo
     from .qos import QoS
 
-__all__ = [
-    "EndpointTypes",
-    "NodeNames",
-    "Obstacle",
-    "as_compared",
-    "obstacles",
-    "warn_of_types",
-]
-
 #: The kind of endpoints whose types are compared with a new endpoint's. A server is not compared:
 #: its clients have to use its type.
 _OTHER = {"publisher": "subscription", "subscription": "publisher", "client": "service"}

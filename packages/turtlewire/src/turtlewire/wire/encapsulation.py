@@ -9,16 +9,6 @@ from turtlewire.errors import WireError
 if TYPE_CHECKING:
     from typing_extensions import Buffer
 
-__all__ = [
-    "HEADER_SIZE",
-    "LITTLE_ENDIAN",
-    "Cdr",
-    "is_message",
-    "joined",
-    "no_message",
-    "require_message",
-]
-
 Cdr = Union[bytes, bytearray, "tuple[Buffer, ...]"]
 """A serialized message: its bytes, or the buffers that make it up one after the other."""
 

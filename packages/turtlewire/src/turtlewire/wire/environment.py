@@ -25,28 +25,6 @@ from turtlewire.platforms import in_browser
 from .libddsc import find_libddsc
 from .report import warn_once
 
-__all__ = [
-    "IN_THE_CLEAR",
-    "MAX_DOMAIN_ID",
-    "MIDDLEWARES",
-    "NO_CYCLONE",
-    "REMEDY",
-    "Discovery",
-    "Range",
-    "asks_for_security",
-    "check_security",
-    "compares_qos",
-    "discovery",
-    "domain_id",
-    "enforces_security",
-    "is_installed",
-    "leaving_at_once",
-    "lingers",
-    "middleware_library",
-    "middleware_name",
-    "misspelt_enable",
-]
-
 #: What ``RMW_IMPLEMENTATION`` may name: Cyclone DDS (the default), Zenoh, and ``local``, which
 #: stays inside the process.
 MIDDLEWARES = ("rmw_cyclonedds_cpp", "rmw_zenoh_cpp", "local")

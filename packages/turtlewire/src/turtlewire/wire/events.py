@@ -10,8 +10,6 @@ from .base import Event, EventStatus
 if TYPE_CHECKING:
     from .base import EventKind
 
-__all__ = ["EventWatcher", "StatusEvent"]
-
 
 class EventWatcher:
     """Collects the events that a wait set is attached to, and says which have something to take."""

@@ -24,18 +24,6 @@ if TYPE_CHECKING:
     from .base import Context
     from .qos import QoS
 
-__all__ = [
-    "DISCOVERY_TOPIC",
-    "DISCOVERY_TYPE",
-    "GraphView",
-    "NodeEndpoints",
-    "format_user_data",
-    "pack_discovery_info",
-    "parse_user_data",
-    "unpack_discovery_info",
-    "with_best_available",
-]
-
 #: DDS name of the topic; it has no ``rt/`` in front.
 DISCOVERY_TOPIC = "ros_discovery_info"
 DISCOVERY_TYPE = TypeId(

@@ -14,8 +14,6 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from typing import NamedTuple
 
-__all__ = ["ABIS", "Abi", "Libddsc", "Search", "find_libddsc"]
-
 
 class Abi(NamedTuple):
     """The differences between the supported versions of Cyclone DDS.

@@ -15,8 +15,6 @@ from contextlib import suppress
 
 from turtlewire.wire.report import warn_once
 
-__all__ = ["ANY_PORT", "bind_to_loopback", "open_sockets", "ports_of_sockets"]
-
 ANY_PORT = range(1 << 16)
 _FILES = "/proc/self/fd"
 _MULTICAST = range(224, 240)  # the first number of these addresses

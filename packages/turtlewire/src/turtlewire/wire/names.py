@@ -14,26 +14,6 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-__all__ = [
-    "NameFault",
-    "expand_topic_name",
-    "fully_qualified_node_name",
-    "is_hidden",
-    "reply_topic",
-    "request_topic",
-    "service_from_dds",
-    "service_of_requests",
-    "service_type",
-    "topic_from_dds",
-    "topic_to_dds",
-    "type_from_dds",
-    "type_to_dds",
-    "validate_full_topic_name",
-    "validate_namespace",
-    "validate_node_name",
-    "validate_topic_name",
-]
-
 _TOPIC_MAX = 247
 _NAMESPACE_MAX = 245
 _NODE_MAX = 255

@@ -6,18 +6,6 @@ from collections.abc import Iterable
 from enum import IntEnum
 from typing import NamedTuple
 
-__all__ = [
-    "BEST_AVAILABLE_NS",
-    "INFINITE_NS",
-    "Durability",
-    "History",
-    "Liveliness",
-    "QoS",
-    "Reliability",
-    "fit_publisher",
-    "fit_subscription",
-]
-
 #: A duration that never ends, in nanoseconds.
 INFINITE_NS = 0x7FFF_FFFF_FFFF_FFFF
 

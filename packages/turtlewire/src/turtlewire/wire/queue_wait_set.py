@@ -14,8 +14,6 @@ from .services import TopicClient, TopicService
 if TYPE_CHECKING:
     from .base import Waitable
 
-__all__ = ["QueueWaitSet", "Queued", "Watcher", "call_when_queued"]
-
 
 class Watcher(Protocol):
     """Something that waits for an entity."""

@@ -19,13 +19,6 @@ from turtlewire.wake_up import WakeUp
 if TYPE_CHECKING:
     from .base import MessageInfo
 
-__all__ = [
-    "LoopReader",
-    "Reader",
-    "ReaderThread",
-    "deliver",
-]
-
 
 class Reader(Protocol):
     """Runs what is submitted, in order; if it raises, that is reported, and the next runs."""

@@ -11,18 +11,6 @@ from turtlewire.distro import LYRICAL, since
 if TYPE_CHECKING:
     from .qos import QoS
 
-__all__ = [
-    "EndpointInfo",
-    "EventKind",
-    "EventStatus",
-    "ForeignServer",
-    "MessageInfo",
-    "NodeInfo",
-    "RequestId",
-    "ServiceTypes",
-    "TypeId",
-]
-
 
 class TypeId(NamedTuple):
     """The name and hash of a type, which peers compare.

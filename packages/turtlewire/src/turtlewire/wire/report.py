@@ -8,8 +8,6 @@ from contextlib import suppress
 
 from turtlewire.terminal.printable import printable
 
-__all__ = ["warn", "warn_once"]
-
 #: Keys contain names, and peers may invent new ones without end. After this many the set is
 #: cleared, and a warning can be repeated.
 _MOST_KEYS = 1000

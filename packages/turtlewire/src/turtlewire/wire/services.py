@@ -21,18 +21,6 @@ from .report import warn_once
 if TYPE_CHECKING:
     from .base import Graph, Publisher, Subscription
 
-__all__ = [
-    "ONE_MIDDLEWARE",
-    "TopicClient",
-    "TopicService",
-    "advice",
-    "join_header",
-    "not_callable",
-    "require_callable",
-    "served_twice",
-    "split_header",
-]
-
 _ENCAPSULATION = 4
 _HEADER = Struct("<Qq")
 _BODY = _ENCAPSULATION + _HEADER.size

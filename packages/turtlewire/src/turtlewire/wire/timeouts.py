@@ -6,8 +6,6 @@ import threading
 
 from .qos import INFINITE_NS
 
-__all__ = ["of_dds", "of_threading"]
-
 _LONGEST_NS = int(threading.TIMEOUT_MAX * 1_000_000_000)
 
 

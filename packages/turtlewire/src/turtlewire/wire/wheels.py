@@ -11,8 +11,6 @@ import sys
 import sysconfig
 from typing import NamedTuple
 
-__all__ = ["Platform", "advice", "this_platform"]
-
 _BOTH = {("linux", "x86_64"), ("darwin", "arm64"), ("darwin", "x86_64"), ("win32", "AMD64")}
 _ZENOH_ONLY = {("linux", machine) for machine in ("aarch64", "armv7l", "i686")}
 _TOO_NEW_FOR_CYCLONE = (3, 14)

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from turtlewire.cli.assistant.permissions import Permissions
     from turtlewire.wire.base import Client, Publisher
 
-__all__ = ["Acting"]
-
 _TWIST, _TWIST_STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 _PERIOD_S = 0.1
 _LONGEST_DRIVE_S = 5.0

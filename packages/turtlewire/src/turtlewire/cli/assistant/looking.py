@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from turtlewire.cli.assistant.network import Network
     from turtlewire.cli.assistant.permissions import Permissions
 
-__all__ = ["Looking"]
-
 _LONGEST_S = 30.0
 
 

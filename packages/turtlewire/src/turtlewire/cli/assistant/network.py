@@ -19,8 +19,6 @@ from turtlewire.wake_up import LoopWakeUp
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-__all__ = ["Network", "unknown"]
-
 #: How long a call waits until the nodes of this computer are known [s].
 _DISCOVERY_S = 2.0
 

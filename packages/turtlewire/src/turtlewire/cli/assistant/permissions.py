@@ -9,16 +9,6 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any
 
-__all__ = [
-    "LONGEST_ANSWER",
-    "Permissions",
-    "RateLimit",
-    "RefusedCallError",
-    "bounded_json",
-    "full_name",
-    "seconds_within",
-]
-
 
 class RefusedCallError(Exception):
     """A call of a tool that cannot be done; the text says why, and what can be done instead."""

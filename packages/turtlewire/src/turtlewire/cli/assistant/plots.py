@@ -18,8 +18,6 @@ from turtlewire.trajectory.pictures import png_of
 if TYPE_CHECKING:
     from turtlewire.msg import Message
 
-__all__ = ["Series", "number_at"]
-
 _STEP = re.compile(r"\.?([A-Za-z]\w*)|\[(\d+)\]")
 _WIDTH, _HEIGHT = 640.0, 320.0
 

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from turtlewire.cli.assistant.network import Network
     from turtlewire.cli.assistant.permissions import Permissions
 
-__all__ = ["make_server", "make_stdin_endable", "serve"]
-
 _Arguments = ParamSpec("_Arguments")
 _Result = TypeVar("_Result")
 

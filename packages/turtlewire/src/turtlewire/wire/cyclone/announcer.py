@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from .participant import Participant
     from .reader import CycloneReaderThread
 
-__all__ = ["ANNOUNCEMENT_INTERVAL_NS", "Announcer", "NodeRecord"]
-
 #: The first change is announced at once, the next ones not sooner than this after it: a thousand
 #: endpoints take a few samples.
 ANNOUNCEMENT_INTERVAL_NS = 20_000_000

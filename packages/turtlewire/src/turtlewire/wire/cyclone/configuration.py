@@ -12,8 +12,6 @@ from turtlewire.wire.report import warn_once
 from . import library as dds
 from .ports import max_processes
 
-__all__ = ["domain_configuration", "stays_on_loopback"]
-
 #: Receive buffers above Cyclone's 1 MB, as far as the system lets it: a message of some megabytes,
 #: or the heartbeats of a crowd, arrive in one burst. (Heartbeats are not changed: rarer ones would
 #: calm a crowd that starts, and make `ros2 node list` beside it wait for seconds.)

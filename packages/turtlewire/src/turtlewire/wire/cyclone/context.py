@@ -20,8 +20,6 @@ from .waiting import CycloneWaitSet, readable_part
 if TYPE_CHECKING:
     from turtlewire.wire.base import Waitable, WaitSet
 
-__all__ = ["CycloneContext"]
-
 
 class CycloneContext(Context):
     """A participant of a Cyclone DDS domain."""

@@ -15,8 +15,6 @@ from .reader import CycloneReaderThread
 if TYPE_CHECKING:
     from .graph import CycloneGraph
 
-__all__ = ["CycloneContextState"]
-
 
 class CycloneContextState:
     """The participant of a context, its reader thread and its announcements.

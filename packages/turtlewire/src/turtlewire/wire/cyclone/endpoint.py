@@ -25,17 +25,6 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Event, TypeId
     from turtlewire.wire.qos import QoS
 
-__all__ = [
-    "Endpoint",
-    "EndpointSpec",
-    "StatusSource",
-    "matched_handles",
-    "read_count",
-    "read_incompatible",
-    "read_liveliness_changed",
-    "read_matched",
-]
-
 
 class EndpointSpec(NamedTuple):
     """The specification of a new endpoint.

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from .endpoint import Endpoint, EndpointSpec
     from .participant import Participant
 
-__all__ = ["FAST_DDS", "FastDds", "guid_of_client", "split_identity"]
-
 _VERSIONS = ("11.0", "0.10")
 _ENCAPSULATION = 4
 _MARK = b"\xfaFastDDS"

@@ -22,8 +22,6 @@ from . import library as dds
 from .native import address_of
 from .ports import unicast_ports_of
 
-__all__ = ["FirstRequests", "receiving_addresses"]
-
 _ELSEWHERE = ("192.0.2.1", 9)  # an address of no computer (RFC 5737)
 _KEEP_STATUS = False  # else the reader thread would not see that something has matched
 

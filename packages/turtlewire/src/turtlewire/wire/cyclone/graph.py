@@ -40,8 +40,6 @@ if TYPE_CHECKING:
     from .participant import Participant
     from .reader import CycloneReaderThread
 
-__all__ = ["CycloneGraph"]
-
 S = TypeVar("S", bound=ctypes.Structure)
 
 _BATCH = 64

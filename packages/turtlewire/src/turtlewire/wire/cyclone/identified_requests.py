@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from .publisher import CyclonePublisher
     from .servers import MatchedEndpoint
 
-__all__ = ["IdentifiedRequests"]
-
 
 class IdentifiedRequests:
     """Sends requests with their identity in the inline QoS.

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
     from turtlewire._native import Cyclone
     from turtlewire.wire.base import Sink
 
-__all__ = ["Inlet"]
-
 
 class Inlet:
     """Connects one reader with a sink: native code is the reader's listener.

@@ -21,8 +21,6 @@ from contextlib import contextmanager, suppress
 
 from turtlewire.wire.report import warn
 
-__all__ = ["CycloneLog", "LineLimiter", "explain"]
-
 #: Length of a period in seconds, and the lines to pass on in each; the others are counted.
 _PERIOD_S = 60.0
 _LINES = 5

@@ -13,8 +13,6 @@ from . import library as dds
 if TYPE_CHECKING:
     from turtlewire._native import Cyclone
 
-__all__ = ["NATIVE", "address_of"]
-
 
 def address_of(function: Callable[..., object]) -> int:
     """Return the address of a function of ctypes."""

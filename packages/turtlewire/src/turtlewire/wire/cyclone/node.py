@@ -34,8 +34,6 @@ if TYPE_CHECKING:
 
     from .context_state import CycloneContextState
 
-__all__ = ["CycloneNode"]
-
 
 class CycloneNode(CheckedNode):
     """A node of a context.

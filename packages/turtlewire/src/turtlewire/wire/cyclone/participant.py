@@ -20,8 +20,6 @@ from .log import CycloneLog
 from .ports import max_processes, ports_of, processes_on_host
 from .sertype import sertype_of
 
-__all__ = ["Participant"]
-
 # An opaque type for the default serializer: a struct of at least one byte, without keys. All bytes
 # of a sample are kept as they are.
 _ADR, _TYPE_1BY, _RTS = 0x01 << 24, 0x01 << 16, 0x00

@@ -9,15 +9,6 @@ from __future__ import annotations
 
 import re
 
-__all__ = [
-    "is_cyclone",
-    "max_processes",
-    "ports_of",
-    "process_of",
-    "processes_on_host",
-    "unicast_ports_of",
-]
-
 _BASE = 7400
 _PER_DOMAIN = 250
 _METATRAFFIC_UNICAST = 10

@@ -33,8 +33,6 @@ if TYPE_CHECKING:
 
     from .participant import Participant
 
-__all__ = ["CyclonePublisher"]
-
 
 class CyclonePublisher(Endpoint, Publisher):
     """A DDS writer of serialized messages."""

@@ -11,8 +11,6 @@ from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, Qo
 
 from . import library as dds
 
-__all__ = ["MAX_BLOCKING_NS", "dds_qos", "policy_kind", "read_qos", "read_user_data"]
-
 #: How long a write may wait for reliable subscriptions that do not keep up.
 MAX_BLOCKING_NS = 1_000_000_000
 

@@ -16,8 +16,6 @@ from turtlewire.guarded import call_guarded
 
 from .waiting import ConditionSet
 
-__all__ = ["CycloneReaderThread"]
-
 
 class CycloneReaderThread:
     """Waits in C for all of its conditions and calls the function of each one that is triggered.

@@ -15,8 +15,6 @@ from turtlewire.errors import WireError
 
 from . import library as dds
 
-__all__ = ["sertype_of"]
-
 #: Words of a ``dds_topic`` that are looked at; the pointer is word 68 of Debian's build.
 _WORDS = 75
 _WORD = ctypes.sizeof(ctypes.c_void_p)

@@ -32,17 +32,6 @@ if TYPE_CHECKING:
 
     from turtlewire.errors import UncallableServiceError
 
-__all__ = [
-    "ONLY_CYCLONE",
-    "MatchedEndpoint",
-    "Servers",
-    "foreign_middleware",
-    "is_fast_dds",
-    "matched_endpoints",
-    "middleware_of",
-    "refusal",
-]
-
 #: Cyclone compares patterns with the default partition, whose name is empty; Fast DDS does not.
 ONLY_CYCLONE = "*"
 

@@ -46,8 +46,6 @@ if TYPE_CHECKING:
     from .reader import CycloneReaderThread
     from .subscription import CycloneSubscription
 
-__all__ = ["CycloneClient", "CycloneService", "format_service_id"]
-
 #: How long a response waits for the client's end of the reply topic to be discovered.
 _PATIENCE_NS = 1_000_000_000
 _KNOWN_CLIENTS = 1000

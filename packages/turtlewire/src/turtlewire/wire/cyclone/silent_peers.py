@@ -21,8 +21,6 @@ from .ports import is_cyclone, process_of
 if TYPE_CHECKING:
     from .participant import Participant
 
-__all__ = ["PATIENCE_NS", "Questions", "SilentPeers"]
-
 #: So long a peer may take before it is asked. Less than the 10 ms after which Cyclone asks by
 #: itself, because then it would ask again only after a second.
 PATIENCE_NS = 2_000_000

@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
     from .participant import Participant
 
-__all__ = ["CycloneSubscription", "deliver_rest_to", "deliver_to", "is_identified"]
-
 _BATCH = 32
 _EVERYTHING = 1_000_000
 #: How the stand-in begins for the gid of a publisher that left before it was asked for it; the

@@ -7,8 +7,6 @@ import ctypes
 from . import library as dds
 from .native import NATIVE
 
-__all__ = ["take_messages", "take_with_ctypes"]
-
 _BATCH = 32
 
 

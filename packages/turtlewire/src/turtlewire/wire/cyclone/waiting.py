@@ -20,8 +20,6 @@ from .subscription import CycloneSubscription
 if TYPE_CHECKING:
     from turtlewire.wire.base import Waitable
 
-__all__ = ["ConditionSet", "CycloneWaitSet", "readable_part"]
-
 T = TypeVar("T")
 
 _GUARD = 0

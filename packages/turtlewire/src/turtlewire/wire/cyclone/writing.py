@@ -31,8 +31,6 @@ if TYPE_CHECKING:
             ...
 
 
-__all__ = ["CLOSED", "NO_IDENTITY", "NO_MESSAGE", "REFUSED", "CtypesWriter", "make_writer"]
-
 # The codes that native/cyclone/writer.hpp adds to Cyclone's.
 NO_MESSAGE, CLOSED, REFUSED, NO_IDENTITY = -1001, -1002, -1003, -1004
 

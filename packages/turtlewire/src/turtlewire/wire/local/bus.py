@@ -26,17 +26,6 @@ if TYPE_CHECKING:
     from turtlewire.wire.base import Event, NodeInfo, TypeId
     from turtlewire.wire.qos import QoS
 
-__all__ = [
-    "EVENTS",
-    "Bus",
-    "LocalEndpoint",
-    "LocalEndpointSpec",
-    "LocalSender",
-    "Message",
-    "bus_of",
-    "new_gid",
-]
-
 Message = tuple[bytes, MessageInfo]
 
 #: What endpoints here can report.

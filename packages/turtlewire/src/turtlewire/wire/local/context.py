@@ -33,14 +33,6 @@ if TYPE_CHECKING:
     from turtlewire.wire.qos import QoS
     from turtlewire.wire.queue_wait_set import Watcher
 
-__all__ = [
-    "LocalContext",
-    "LocalNode",
-    "LocalNodeState",
-    "LocalPublisher",
-    "LocalSubscription",
-]
-
 
 class LocalNodeState:
     """The bus that a node's endpoints are on and the thread that calls their callbacks.

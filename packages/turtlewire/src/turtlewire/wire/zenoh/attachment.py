@@ -5,8 +5,6 @@ from __future__ import annotations
 from struct import Struct
 from typing import NamedTuple
 
-__all__ = ["Attachment", "pack_attachment"]
-
 _GID_SIZE = 16
 _LAYOUT = Struct(f"<qqB{_GID_SIZE}s")
 #: rmw_zenoh_cpp 0.2.0 to 0.2.3 wrote the name of each value in front of it.

@@ -10,11 +10,6 @@ from zenoh.handlers import Callback as Handler
 
 from turtlewire.errors import WireError
 
-__all__ = [
-    "CallbackThreads",
-    "Calls",
-]
-
 _T = TypeVar("_T")
 
 

@@ -28,14 +28,6 @@ from turtlewire.wire.report import warn_once
 
 from .library import reason_of
 
-__all__ = [
-    "ROUTER_PORT",
-    "SharedMemory",
-    "router_configuration",
-    "session_configuration",
-    "stays_on_loopback",
-]
-
 ROUTER_PORT = 7447
 
 _LOOPBACK = {"darwin": "lo0", "linux": "lo"}

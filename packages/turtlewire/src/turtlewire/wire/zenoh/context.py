@@ -46,11 +46,6 @@ if TYPE_CHECKING:
     )
     from turtlewire.wire.qos import QoS
 
-__all__ = [
-    "ZenohContext",
-    "ZenohNode",
-]
-
 
 class ZenohNode(CheckedNode):
     """A node of a context.

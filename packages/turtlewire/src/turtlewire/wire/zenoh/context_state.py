@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from .graph import ZenohGraph
     from .tokens import Token
 
-__all__ = ["Owner", "ZenohContextState"]
-
 
 class Owner(Protocol):
     """The node of an endpoint, as the endpoint knows it.

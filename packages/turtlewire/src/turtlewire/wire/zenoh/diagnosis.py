@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
     import zenoh
 
-__all__ = ["ConnectFault", "fault_of", "warn_of_faults"]
-
 _LIMIT_S = 10.0
 _TLS = "transport/link/tls"
 _FILES = ("root_ca_certificate", "connect_certificate", "connect_private_key")

@@ -30,9 +30,6 @@ if TYPE_CHECKING:
             """Take it back."""
 
 
-__all__ = ["ZenohEndpoint"]
-
-
 class ZenohEndpoint(Entity):
     """An endpoint with its token. The context's lock guards its state.
 

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
     from .callback_threads import CallbackThreads
 
-__all__ = ["Matching", "ZenohGraph"]
-
 #: Peers on this host answer within a hundredth of it.
 _DISCOVERY_NS = 200_000_000
 

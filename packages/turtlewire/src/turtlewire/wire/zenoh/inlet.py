@@ -38,11 +38,6 @@ if TYPE_CHECKING:
     OnMessage = Callable[[bytes, MessageInfo], None]
     from turtlewire.wire.base import Sink
 
-__all__ = [
-    "ZenohSinkSubscription",
-    "ZenohSubscription",
-]
-
 
 class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
     """A subscriber that queues on its own thread, which the library makes.

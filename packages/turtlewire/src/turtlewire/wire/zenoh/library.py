@@ -8,8 +8,6 @@ from importlib import import_module
 from turtlewire.errors import WireError
 from turtlewire.wire.wheels import advice, this_platform
 
-__all__ = ["reason_of", "require_zenoh"]
-
 
 def require_zenoh() -> None:
     """Import the library.

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
     from .context_state import Owner, ZenohContextState
 
-__all__ = ["ZenohPublisher"]
-
 #: Seconds between the messages by which a subscription notices that it missed the last one.
 _HEARTBEAT = 0.5
 

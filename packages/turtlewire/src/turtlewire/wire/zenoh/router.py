@@ -32,13 +32,6 @@ from .configuration import router_configuration
 from .diagnosis import warn_of_faults
 from .library import reason_of
 
-__all__ = [
-    "explain",
-    "explained_log",
-    "route",
-    "wait_for_router",
-]
-
 _FILTER = (
     "error,zenoh_link_tls=warn,zenoh_link_quic=warn,"
     "zenoh_transport::unicast::establishment::accept=debug,"

@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from .context_state import Owner, ZenohContextState
     from .tokens import Token
 
-__all__ = ["ZenohClient", "ZenohService"]
-
 #: The result of an action is awaited without limit.
 _NO_LIMIT_S = 1e9
 

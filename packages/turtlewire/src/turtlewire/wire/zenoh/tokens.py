@@ -18,20 +18,6 @@ from turtlewire.wire.qos import (
     Reliability,
 )
 
-__all__ = [
-    "CLIENT",
-    "NODE",
-    "PUBLISHER",
-    "SERVICE",
-    "SUBSCRIPTION",
-    "Token",
-    "adapted",
-    "format_qos",
-    "graph_key",
-    "parse_qos",
-]
-
-
 #: rmw_zenoh's own default, and what a depth of 0 means there.
 _DEFAULT_DEPTH = 42
 
