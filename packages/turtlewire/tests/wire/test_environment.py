@@ -177,7 +177,8 @@ def test_localhost_uses_nothing_but_the_loopback_interface():
     loopback = {"address": "127.0.0.1"}
     assert interfaces(configuration(Discovery(Range.LOCALHOST, ()))) == [loopback]
     assert interfaces(configuration(Discovery(Range.LOCALHOST, ("10.0.0.1",)))) == []
-    assert interfaces(configuration(Discovery(Range.OFF, ()))) == [loopback]
+    for ignored in ((), ("10.0.0.1",)):
+        assert interfaces(configuration(Discovery(Range.OFF, ignored))) == [loopback]
     assert interfaces(configuration(Discovery(Range.SUBNET, ()))) == []
 
 

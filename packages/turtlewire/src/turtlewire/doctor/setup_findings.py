@@ -118,7 +118,7 @@ def only_this_host() -> bool:
 
 def looks_for_others() -> bool:
     """Return True if this process looks for nodes on other hosts."""
-    return bool(discovery().static_peers) or not only_this_host()
+    return bool(discovery().asked_peers) or not only_this_host()
 
 
 _DISCOVERY_LIMIT_NS = 2_000_000_000

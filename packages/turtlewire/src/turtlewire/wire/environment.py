@@ -57,6 +57,28 @@ class Discovery(NamedTuple):
     range: Range
     static_peers: tuple[str, ...]
 
+    @property
+    def asked_peers(self) -> tuple[str, ...]:
+        """The static peers that count: as in ROS 2, none with ``OFF`` and ``SYSTEM_DEFAULT``."""
+        return () if self.range in {Range.OFF, Range.SYSTEM_DEFAULT} else self.static_peers
+
+
+_PEER = r"(?P<host>[A-Za-z0-9._-]+)(:(?P<port>[0-9]{1,5}))?"
+_LAST_PORT = 65535
+
+
+def split_peer(peer: str) -> tuple[str, str]:
+    """Split a static peer into its host and its port, which is empty if it has none.
+
+    Raises:
+        WireError: ``peer`` does not have the form of an address.
+    """
+    written = re.fullmatch(_PEER, peer)
+    if not written or not 0 < int(written["port"] or 1) <= _LAST_PORT:
+        error = WireError(f"ROS_STATIC_PEERS: {peer!r} is not an address")
+        raise error.with_hint("Write host names or IPv4 addresses, separated by ';'.")
+    return written["host"], written["port"] or ""
+
 
 def domain_id() -> int:
     """``ROS_DOMAIN_ID``, or 0.

@@ -36,19 +36,28 @@ def test_the_range_of_discovery(monkeypatch: pytest.MonkeyPatch):
     assert value(configuration, "scouting/multicast/enabled") is True
     assert value(configuration, "scouting/multicast/interface") == "lo"
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SUBNET")
-    monkeypatch.setenv("ROS_STATIC_PEERS", "10.0.0.7;robot.local")
+    monkeypatch.setenv("ROS_STATIC_PEERS", "10.0.0.7;robot.local;10.0.0.8:7448")
     configuration = session_configuration()
     assert value(configuration, "listen/endpoints") == ["tcp/0.0.0.0:0"]
     assert value(configuration, "scouting/multicast/interface") == "auto"
     assert value(configuration, "connect/endpoints")[1:] == [
         "tcp/10.0.0.7:7447",
         "tcp/robot.local:7447",
+        "tcp/10.0.0.8:7448",
     ]
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "SYSTEM_DEFAULT")
+    assert value(session_configuration(), "connect/endpoints") == ["tcp/127.0.0.1:7447"]
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
-    monkeypatch.delenv("ROS_STATIC_PEERS")
     configuration = session_configuration()
     assert value(configuration, "scouting/multicast/enabled") is False
     assert value(configuration, "connect/endpoints") == []
+
+
+@pytest.mark.parametrize("peer", ["a b", "::1", "host:0", "host#iface=eth0"])
+def test_a_static_peer_must_be_an_address(monkeypatch: pytest.MonkeyPatch, peer: str):
+    monkeypatch.setenv("ROS_STATIC_PEERS", peer)
+    with pytest.raises(WireError, match=f"ROS_STATIC_PEERS: '{peer}' is not an address"):
+        session_configuration()
 
 
 def test_the_router_stays_on_this_computer():
@@ -138,6 +147,7 @@ def test_a_file_replaces_all(monkeypatch: pytest.MonkeyPatch, tmp_path):
             'mode="client";connect/endpoints=["tcp/127.0.0.1"]',
             "tcp/127.0.0.1 is not a reachable address",
         ),
+        ('mode="client";connect/endpoints=["tls/a..b:7000"]', "tls/a..b:7000: no connection ("),
         (  # at the usual address, a router of another test might be found
             'mode="client";connect/endpoints=[];scouting/multicast/address="224.0.0.224:47017"',
             "connect/endpoints names no router",

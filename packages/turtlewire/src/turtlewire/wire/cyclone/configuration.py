@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-import re
 
-from turtlewire.errors import WireError
-from turtlewire.wire.environment import Discovery, Range, lingers
+from turtlewire.wire.environment import Discovery, Range, lingers, split_peer
 from turtlewire.wire.report import warn_once
 
 from . import library as dds
@@ -36,8 +34,6 @@ _TYPES_OF_FAST_DDS = (
     "<Compatibility><IgnoreTypeInformation>1.15</IgnoreTypeInformation></Compatibility>"
 )
 _FOR_EVER = ' PruneDelay="inf"'
-_PEER = r"(?P<host>[A-Za-z0-9._-]+)(:(?P<port>[0-9]{1,5}))?"
-_LAST_PORT = 65535
 
 
 def domain_configuration(domain_id: int, discovery: Discovery) -> str:
@@ -71,7 +67,7 @@ def domain_configuration(domain_id: int, discovery: Discovery) -> str:
 def stays_on_loopback(discovery: Discovery) -> bool:
     """Return True if the loopback interface is the only one that the configuration uses."""
     is_wide = discovery.range in {Range.SUBNET, Range.SYSTEM_DEFAULT}
-    return not is_wide and not discovery.static_peers
+    return not is_wide and not discovery.asked_peers
 
 
 def _general(discovery: Discovery) -> str:
@@ -89,14 +85,13 @@ def _peers(discovery: Discovery) -> str:
     if discovery.range == Range.LOCALHOST:
         # With static peers it is never given up, because then we must find the processes of this
         # host (see _general). Not "localhost": Cyclone aborts where nothing resolves that name.
-        for_ever = discovery.static_peers and dds.ABI.prunes_peers
+        for_ever = discovery.asked_peers and dds.ABI.prunes_peers
         peers.append(f'<Peer address="127.0.0.1"{_FOR_EVER if for_ever else ""}/>')
-    if discovery.range != Range.SYSTEM_DEFAULT:
-        peers += [
-            f'<Peer address="{address}"/>'
-            for address in map(_resolved, discovery.static_peers)
-            if address
-        ]
+    peers += [
+        f'<Peer address="{address}"/>'
+        for address in map(_resolved, discovery.asked_peers)
+        if address
+    ]
     return f"<Peers>{''.join(peers)}</Peers>" if peers else ""
 
 
@@ -112,12 +107,9 @@ def _resolved(peer: str) -> str:
     """
     import socket
 
-    written = re.fullmatch(_PEER, peer)
-    if not written or not 0 < int(written["port"] or 1) <= _LAST_PORT:
-        error = WireError(f"ROS_STATIC_PEERS: {peer!r} is not an address")
-        raise error.with_hint("Write host names or IPv4 addresses, separated by ';'.")
+    host, port = split_peer(peer)
     try:
-        address = socket.getaddrinfo(written["host"], None, socket.AF_INET)[0][4][0]
+        address = socket.getaddrinfo(host, None, socket.AF_INET)[0][4][0]
     except (OSError, UnicodeError) as error:
         warn_once(
             f"static peer {peer}",
@@ -130,4 +122,4 @@ def _resolved(peer: str) -> str:
             f"ROS_STATIC_PEERS: {peer} is ignored: it is not the address of a computer",
         )
         return ""
-    return f"{address}:{written['port']}" if written["port"] else str(address)
+    return f"{address}:{port}" if port else str(address)

@@ -63,8 +63,8 @@ def session_configuration() -> zenoh.Config:
     """Return the configuration of a context's session.
 
     Raises:
-        WireError: ``ZENOH_SESSION_CONFIG_URI`` names no configuration, or
-            ``ZENOH_CONFIG_OVERRIDE`` has more than one line.
+        WireError: ``ZENOH_SESSION_CONFIG_URI`` names no configuration,
+            ``ZENOH_CONFIG_OVERRIDE`` has more than one line, or a static peer is not an address.
     """
     return _configuration("ZENOH_SESSION_CONFIG_URI", _session)
 
@@ -158,7 +158,10 @@ def _session() -> dict[str, Any]:
     # With SUBNET, the user has asked for peers on other hosts.
     address = "127.0.0.1" if on_loopback or alone else "0.0.0.0"  # noqa: S104
     routers = [] if alone else [f"tcp/127.0.0.1:{ROUTER_PORT}"]
-    peers = [f"tcp/{peer}:{ROUTER_PORT}" for peer in discovery.static_peers]
+    peers = [
+        f"tcp/{host}:{port or ROUTER_PORT}"
+        for host, port in map(environment.split_peer, discovery.asked_peers)
+    ]
     to_peers = {"router": [], "peer": _PEERS_AND_ROUTERS}
     return {
         "mode": "peer",

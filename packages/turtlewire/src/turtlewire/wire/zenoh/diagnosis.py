@@ -151,9 +151,9 @@ def _link_fault(address: _Address, configuration: zenoh.Config) -> ConnectFault 
     try:
         with socket.create_connection((address.host, address.port), _LIMIT_S) as plain:
             return None if context is None else _handshake_fault(plain, address, context, tls)
-    except OSError as error:
+    except (OSError, UnicodeError) as error:  # the latter for a host such as `a..b`
         return ConnectFault(
-            f"no connection ({error.strerror or error})",
+            f"no connection ({getattr(error, 'strerror', None) or error})",
             "Is the router running there (`ros2 run rmw_zenoh_cpp rmw_zenohd`), does it listen at "
             "that address, and does the firewall let TCP through?",
         )
