@@ -21,7 +21,7 @@ from turtlewire.errors import UncallableServiceError
 from turtlewire.wire import report
 from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.cyclone.fast_dds import FAST_DDS
-from turtlewire.wire.cyclone.writing import NO_IDENTITY
+from turtlewire.wire.cyclone.samples import NO_IDENTITY
 from turtlewire.wire.qos import QoS
 from turtlewire.wire.services import RequestId, join_header, require_callable
 

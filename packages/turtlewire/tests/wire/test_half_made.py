@@ -60,7 +60,7 @@ def test_an_endpoint_that_fails_is_deleted(monkeypatch, context: Context):
 @pytest.mark.parametrize("step", ["participant.Participant._create_topic", "library.guid_of"])
 def test_the_way_to_a_sink_ends_with_its_subscription(monkeypatch, context: Context, step: str):
     from turtlewire._native import Intake
-    from turtlewire.wire.cyclone.inlet import Inlet
+    from turtlewire.wire.cyclone.native import Inlet
 
     open_inlets, make, close = [], Inlet.__init__, Inlet.close
     monkeypatch.setattr(Inlet, "__init__", lambda *args: open_inlets.append(args[0]) or make(*args))

@@ -13,8 +13,7 @@ from tests.needs import needs_cyclone_dds
 
 from turtlewire import wire
 from turtlewire.wire.base import EventKind, TypeId
-from turtlewire.wire.cyclone import taking, writing
-from turtlewire.wire.cyclone.sertype import sertype_of
+from turtlewire.wire.cyclone import samples
 from turtlewire.wire.qos import History, QoS
 
 pytestmark = needs_cyclone_dds
@@ -30,9 +29,9 @@ def cdr(number, size):
     return b"\0\1\0\0" + len(text).to_bytes(4, "little") + text
 
 
-WAYS = {"ctypes": taking.take_with_ctypes}
-if taking.take_messages is not taking.take_with_ctypes:
-    WAYS["native"] = taking.take_messages
+WAYS = {"ctypes": samples.take_with_ctypes}
+if samples.take_messages is not samples.take_with_ctypes:
+    WAYS["native"] = samples.take_messages
 
 
 @pytest.fixture
@@ -137,13 +136,13 @@ def test_waiting_messages_keep_the_gid_of_a_left_publisher(context, pair):
     assert subscription._gids == {}
 
 
-def with_ctypes(handle: int) -> writing.CtypesWriter:
-    return writing.CtypesWriter(handle, sertype_of(handle))
+def with_ctypes(handle: int) -> samples.CtypesWriter:
+    return samples.CtypesWriter(handle, samples.sertype_of(handle))
 
 
 WRITERS = {"ctypes": with_ctypes}
-if writing.NATIVE is not None:
-    WRITERS["native"] = writing.make_writer
+if samples.NATIVE is not None:
+    WRITERS["native"] = samples.make_writer
 
 
 @pytest.fixture(params=list(WRITERS.values()), ids=list(WRITERS))
@@ -197,7 +196,7 @@ def test_objects_without_a_buffer_are_rejected(written, cdr):
 @pytest.mark.parametrize("data", [b"", b"\0\1\0\0", b"\0\0\0\0abcd", b"\1\1\0\0abcd"])
 def test_bytes_that_are_no_message_are_refused(written, data):
     writer, subscription = written
-    assert writer.write(data) == writing.NO_MESSAGE
+    assert writer.write(data) == samples.NO_MESSAGE
     assert subscription.take() == []
 
 
@@ -205,5 +204,5 @@ def test_a_closed_writer_sends_nothing(written):
     writer, subscription = written
     writer.close()
     writer.close()
-    assert writer.write(b"\0\1\0\0abcd") == writing.CLOSED
+    assert writer.write(b"\0\1\0\0abcd") == samples.CLOSED
     assert subscription.take() == []

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING
 
-from .base import Event, EventStatus
-
-if TYPE_CHECKING:
-    from .base import EventKind
+from .base import Event, EventKind, EventStatus
 
 
 class EventWatcher:
@@ -104,3 +100,30 @@ class StatusEvent(Event):
             watchers = list(self._watchers)
         for watcher in watchers:
             self.detach(watcher)
+
+
+class EventSource:
+    """The events of one endpoint.
+
+    Args:
+        lock: Guards them.
+    """
+
+    def __init__(self, lock: threading.Lock | threading.RLock) -> None:
+        self._lock = lock
+        self._events: dict[EventKind, StatusEvent] = {}
+        self._matched_count = 0
+
+    def _event(self, kind: EventKind) -> StatusEvent:
+        with self._lock:
+            return self._events.setdefault(kind, StatusEvent(kind))
+
+    def _report_matched(self, change: int, current: int) -> None:
+        """Report that one endpoint more or less matches, and ``current`` ones in all."""
+        self._matched_count += max(change, 0)
+        status = EventStatus(self._matched_count, max(change, 0), current, change)
+        self._event(EventKind.MATCHED).add(status)
+
+    def _close_events(self) -> None:
+        for event in list(self._events.values()):
+            event.close()

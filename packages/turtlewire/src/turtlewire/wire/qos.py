@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from enum import IntEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 #: A duration that never ends, in nanoseconds.
 INFINITE_NS = 0x7FFF_FFFF_FFFF_FFFF
@@ -52,6 +52,15 @@ class Liveliness(IntEnum):
     BEST_AVAILABLE = 5
 
 
+_ALL_BEST_AVAILABLE = {
+    "reliability": Reliability.BEST_AVAILABLE,
+    "durability": Durability.BEST_AVAILABLE,
+    "liveliness": Liveliness.BEST_AVAILABLE,
+    "deadline_ns": BEST_AVAILABLE_NS,
+    "liveliness_lease_ns": BEST_AVAILABLE_NS,
+}
+
+
 class QoS(NamedTuple):
     """The quality of service of one endpoint.
 
@@ -71,12 +80,7 @@ class QoS(NamedTuple):
     @property
     def has_best_available(self) -> bool:
         """True if a policy depends on the existing endpoints."""
-        return (
-            self.reliability == Reliability.BEST_AVAILABLE
-            or self.durability == Durability.BEST_AVAILABLE
-            or self.liveliness == Liveliness.BEST_AVAILABLE
-            or BEST_AVAILABLE_NS in {self.deadline_ns, self.liveliness_lease_ns}
-        )
+        return any(getattr(self, name) == wanted for name, wanted in _ALL_BEST_AVAILABLE.items())
 
 
 def fit_subscription(qos: QoS, offered: Iterable[QoS]) -> QoS:
@@ -125,24 +129,7 @@ def fit_publisher(qos: QoS, requested: Iterable[QoS]) -> QoS:
     )
 
 
-def _filled(
-    qos: QoS,
-    *,
-    reliability: Reliability,
-    durability: Durability,
-    liveliness: Liveliness,
-    deadline_ns: int,
-    liveliness_lease_ns: int,
-) -> QoS:
+def _filled(qos: QoS, **values: Any) -> QoS:
     """``qos`` with the given values where it asks for the best available ones."""
-    return qos._replace(
-        reliability=reliability
-        if qos.reliability == Reliability.BEST_AVAILABLE
-        else qos.reliability,
-        durability=durability if qos.durability == Durability.BEST_AVAILABLE else qos.durability,
-        liveliness=liveliness if qos.liveliness == Liveliness.BEST_AVAILABLE else qos.liveliness,
-        deadline_ns=deadline_ns if qos.deadline_ns == BEST_AVAILABLE_NS else qos.deadline_ns,
-        liveliness_lease_ns=liveliness_lease_ns
-        if qos.liveliness_lease_ns == BEST_AVAILABLE_NS
-        else qos.liveliness_lease_ns,
-    )
+    asked = (name for name, wanted in _ALL_BEST_AVAILABLE.items() if getattr(qos, name) == wanted)
+    return qos._replace(**{name: values[name] for name in asked})

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
+
+from turtlewire.errors import WireError
 
 from . import timeouts
 from .base import Entity, WaitSet
@@ -12,36 +14,62 @@ from .events import EventWatcher, StatusEvent
 from .services import TopicClient, TopicService
 
 if TYPE_CHECKING:
+    from collections import deque
+
     from .base import Waitable
 
 
 class Watcher(Protocol):
     """Something that waits for an entity."""
 
-    def detach(self, entity: Waitable, /) -> None:
+    def detach(self, entity: Any, /) -> None:
         """Wait no more; a closing entity calls it."""
         ...
 
 
 class Queued(Entity):
-    """An entity with a queue.
+    """An entity with a queue, which the lock guards.
 
     Attributes:
+        topic: ROS name of its topic or service.
         watchers: What waits for it, and what to call, with the lock held, when something was
             queued.
     """
 
+    topic: str
     watchers: dict[Watcher, Callable[[], None]]
+    _queue: deque[Any]
+    _lock: threading.Lock | threading.RLock
+    _closed: bool
 
     def tell_watchers(self) -> None:
         """Tell them that something was queued; call it with the lock held."""
         for notify in list(self.watchers.values()):  # one that is told may leave
             notify()
 
+    def leave_watchers(self) -> None:
+        """Have nothing wait for it any more."""
+        for watcher in list(self.watchers):
+            watcher.detach(self)
+
     @property
     def is_waiting(self) -> bool:
         """True if something waits to be taken."""
-        raise NotImplementedError
+        return bool(self._queue)
+
+    def take(self, limit: int = 32) -> list[Any]:
+        """Take up to ``limit`` of what waits, oldest first."""
+        with self._lock:
+            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
+
+    def require_open(self) -> None:
+        """Refuse to wait for what will never come.
+
+        Raises:
+            WireError: It is closed.
+        """
+        if self._closed:
+            raise WireError(f"wait for {self.topic}: it is closed")
 
 
 class QueueWaitSet(EventWatcher, WaitSet):
@@ -140,6 +168,7 @@ def call_when_queued(
     queue = _queue_of(entity)
     once = _Call(queue, call)
     with lock:
+        queue.require_open()
         queue.watchers[once] = once.notify
         if queue.is_waiting:
             once.notify()

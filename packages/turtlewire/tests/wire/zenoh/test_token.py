@@ -15,8 +15,16 @@ from turtlewire.wire.qos import (
     QoS,
     Reliability,
 )
-from turtlewire.wire.zenoh.attachment import Attachment, pack_attachment
-from turtlewire.wire.zenoh.tokens import NODE, PUBLISHER, Token, adapted, format_qos, parse_qos
+from turtlewire.wire.zenoh.protocol import (
+    NODE,
+    PUBLISHER,
+    Attachment,
+    Token,
+    adapted,
+    format_qos,
+    pack_attachment,
+    parse_qos,
+)
 
 HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 NODE_TEXT = "@ros2_lv/2/aac3178e146ba6f1fc6e6a4085e77f21/0/0/NN/%/%ns/listener"

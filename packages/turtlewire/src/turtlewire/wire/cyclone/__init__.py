@@ -14,7 +14,6 @@ Cyclone's threads do not survive a fork.
 module                    contents
 ========================  =======================================================
 `library`                 loads ``libddsc``, and declares its functions
-`sertype`                 the type of a topic, from which samples are created
 `configuration`           Cyclone's configuration for a domain
 `context`                 one participant
 `context_state`           the state that a context shares with its nodes
@@ -22,15 +21,14 @@ module                    contents
 `node`                    creates endpoints, and announces them
 `announcer`               publishes ``ros_discovery_info``
 `endpoint`                the common base of publishers and subscriptions
-`publisher`, `writing`    bytes to a DDS writer
-`subscription`, `taking`  bytes from a DDS reader
-`inlet`                   passes messages from Cyclone's thread to a native sink
-`native`                  the compiled half of this package, or None
+`publisher`               bytes to a DDS writer
+`subscription`            bytes from a DDS reader
+`samples`                 takes and writes samples, by native code or through ctypes
+`native`                  the compiled half of this package, or None; the way to a native sink
 `services`                services in the layout of rmw_cyclonedds
-`servers`                 chooses the servers that get requests
-`fast_dds`                prepares the types of services for nodes on Fast DDS
-`identified_requests`     requests to servers on Fast DDS
-`first_requests`          asks new clients on Fast DDS for their first request
+`servers`                 chooses the servers that get requests; requests to those on Fast DDS
+`fast_dds`                prepares the types of services for nodes on Fast DDS, and asks new clients
+                          on it for their first request
 `waiting`                 wait sets
 `reader`                  the Python thread of a context
 `graph`                   this participant's view of the graph

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from .announcer import Announcer
-from .first_requests import receiving_addresses
+from .fast_dds import receiving_addresses
 from .participant import Participant
 from .reader import CycloneReaderThread
 

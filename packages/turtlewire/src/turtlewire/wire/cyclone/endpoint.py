@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 from turtlewire.errors import WireError
 from turtlewire.guarded import call_guarded
 from turtlewire.wire.base import Entity, EventKind, EventStatus
-from turtlewire.wire.events import StatusEvent
+from turtlewire.wire.events import EventSource
 from turtlewire.wire.graph import format_user_data
 
 from . import library as dds
@@ -69,7 +69,7 @@ class StatusSource(NamedTuple):
     translate: Callable[..., EventStatus]
 
 
-class Endpoint(Entity):
+class Endpoint(EventSource, Entity):
     """A DDS reader or writer.
 
     Attributes:
@@ -88,14 +88,13 @@ class Endpoint(Entity):
     _sources: ClassVar[Mapping[EventKind, StatusSource]]
 
     def __init__(self, spec: EndpointSpec) -> None:
+        super().__init__(threading.Lock())
         self.spec = spec
         self.on_matched: list[Callable[[], None]] = []
         self.on_closing: list[Callable[[], None]] = []
         self.ends_with_participant = False
-        self._lock = threading.Lock()
         self._closed = False
         self._process = os.getpid()
-        self._events: dict[EventKind, StatusEvent] = {}
 
     def _created(self, handle: int) -> None:
         """Store the new reader or writer; raises if creating it failed."""
@@ -117,10 +116,6 @@ class Endpoint(Entity):
                 f"{type(self).__name__} of {self.spec.name} has no event '{kind.value}'"
             )
         return self._event(kind)
-
-    def _event(self, kind: EventKind) -> StatusEvent:
-        with self._lock:
-            return self._events.setdefault(kind, StatusEvent(kind))
 
     def statuses_changed(self) -> None:
         """Read, reset and forward all changed statuses; runs on the reader thread."""
@@ -152,8 +147,7 @@ class Endpoint(Entity):
         # Before the deletion: the callbacks still use the handle.
         for call in self.on_closing:
             call()
-        for event in list(self._events.values()):
-            event.close()
+        self._close_events()
         self._delete()
 
     def _delete(self) -> None:

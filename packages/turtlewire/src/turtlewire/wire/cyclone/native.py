@@ -1,4 +1,4 @@
-"""The compiled half of this package; None if it is missing or disabled."""
+"""The compiled half of this package, which may be missing or disabled."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from . import library as dds
 
 if TYPE_CHECKING:
     from turtlewire._native import Cyclone
+    from turtlewire.wire.base import Sink
 
 
 def address_of(function: Callable[..., object]) -> int:
@@ -44,5 +45,39 @@ def _load() -> Cyclone | None:
     return Cyclone([address_of(function) for function in functions], layout)
 
 
-#: Calls Cyclone from native code.
+#: Calls Cyclone from native code; None without it.
 NATIVE = _load()
+
+
+class Inlet:
+    """Passes messages from Cyclone's thread to a sink: native code is the reader's listener.
+
+    Attributes:
+        sink: It is kept until the inlet is closed, because native code uses it.
+        guard: The condition that is true while the sink needs service.
+        listener: What to create the reader with.
+    """
+
+    def __init__(self, native: Cyclone, participant: int, sink: Sink) -> None:
+        from turtlewire._native import CycloneInlet
+
+        self.sink = sink
+        self.guard = dds.check(dds.create_guard_condition(participant), "create a guard condition")
+        self._native = CycloneInlet(native, self.guard, sink)
+        callback, argument = self._native.listener()
+        self.listener = dds.create_listener(argument)
+        dds.lset_data_available(self.listener, callback)
+
+    def rest(self, gid_of: Callable[[int], bytes]) -> list[tuple[bytes, int, int]]:
+        """Serve the sink and return the messages that it left; call it until it returns none."""
+        dds.set_guard_condition(self.guard, False)
+        return self.sink.serve(gid_of)
+
+    def call_again(self) -> None:
+        """Trigger the guard, for there may be more to serve."""
+        dds.set_guard_condition(self.guard, True)
+
+    def close(self) -> None:
+        """End; to be called when the reader has been deleted and no thread is in native code."""
+        dds.delete_listener(self.listener)
+        dds.delete(self.guard)

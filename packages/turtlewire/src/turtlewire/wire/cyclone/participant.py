@@ -18,7 +18,7 @@ from . import library as dds
 from .configuration import domain_configuration, stays_on_loopback
 from .log import CycloneLog
 from .ports import max_processes, ports_of, processes_on_host
-from .sertype import sertype_of
+from .samples import sertype_of
 
 # An opaque type for the default serializer: a struct of at least one byte, without keys. All bytes
 # of a sample are kept as they are.

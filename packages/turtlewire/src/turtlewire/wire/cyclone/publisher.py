@@ -23,8 +23,8 @@ from .endpoint import (
 from .fast_dds import FAST_DDS
 from .native import NATIVE
 from .qos import MAX_BLOCKING_NS, dds_qos
+from .samples import CLOSED, NO_IDENTITY, NO_MESSAGE, REFUSED, make_writer
 from .servers import is_fast_dds, matched_endpoints
-from .writing import CLOSED, NO_IDENTITY, NO_MESSAGE, REFUSED, make_writer
 
 if TYPE_CHECKING:
     from turtlewire._native import CycloneWriter

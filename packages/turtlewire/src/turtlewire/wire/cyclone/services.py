@@ -25,11 +25,10 @@ from turtlewire.wire.services import (
 
 from . import library as dds
 from .endpoint import matched_handles
-from .fast_dds import FAST_DDS, guid_of_client, split_identity
-from .first_requests import FirstRequests
-from .identified_requests import IdentifiedRequests
+from .fast_dds import FAST_DDS, FirstRequests, guid_of_client, split_identity
 from .ports import is_cyclone, process_of
 from .servers import (
+    IdentifiedRequests,
     MatchedEndpoint,
     Servers,
     is_fast_dds,

@@ -25,10 +25,9 @@ from .endpoint import (
     read_matched,
 )
 from .fast_dds import FAST_DDS
-from .inlet import Inlet
-from .native import NATIVE
+from .native import NATIVE, Inlet
 from .qos import dds_qos, read_user_data
-from .taking import take_messages
+from .samples import take_messages
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import Sink, WaitSet

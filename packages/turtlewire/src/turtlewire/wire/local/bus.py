@@ -19,7 +19,7 @@ from turtlewire.wire.base import (
     MessageInfo,
 )
 from turtlewire.wire.conflicts import EndpointTypes, as_compared
-from turtlewire.wire.events import StatusEvent
+from turtlewire.wire.events import EventSource
 from turtlewire.wire.qos import Durability, History, Reliability
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ class LocalEndpointSpec(NamedTuple):
     service_hash: str = ""
 
 
-class LocalEndpoint(Entity):
+class LocalEndpoint(EventSource, Entity):
     """The common base of publishers and subscriptions. The bus's lock guards all of it.
 
     Attributes:
@@ -68,30 +68,24 @@ class LocalEndpoint(Entity):
     """
 
     def __init__(self, spec: LocalEndpointSpec, node: NodeInfo, lock: threading.RLock) -> None:
+        super().__init__(lock)
         self.topic = spec.name
         self.dds_topic = spec.dds_topic
         self.type_id = spec.type_id
         self.qos = spec.qos
         self.gid = new_gid()
         self.matched: list[LocalEndpoint] = []
-        self._matched_count = 0
         self._incompatible_count = 0
         self._node = node
         self._service_hash = spec.service_hash
-        self._lock = lock
         self._closed = False
         keep_all = spec.qos.history == History.KEEP_ALL
         self._queue: deque[Message] = deque(maxlen=None if keep_all else max(spec.qos.depth, 1))
-        self._events: dict[EventKind, StatusEvent] = {}
 
     def create_event(self, kind: EventKind) -> Event:
         if kind not in EVENTS and kind is not EventKind.INCOMPATIBLE_TYPE:
             raise WireError(f"the in-process middleware has no event '{kind.value}'")
         return self._event(kind)
-
-    def _event(self, kind: EventKind) -> StatusEvent:
-        with self._lock:
-            return self._events.setdefault(kind, StatusEvent(kind))
 
     def info(self, kind: str) -> EndpointInfo:
         """Return the graph's entry of this endpoint; ``kind`` as in `EndpointInfo`."""
@@ -111,17 +105,12 @@ class LocalEndpoint(Entity):
     def meet(self, other: LocalEndpoint) -> None:
         """Match an endpoint of the other kind; called with the lock held."""
         self.matched.append(other)
-        self._matched_count += 1
-        self._report_matched(1)
+        self._report_matched(1, len(self.matched))
 
     def part(self, other: LocalEndpoint) -> None:
         """Stop matching an endpoint of the other kind; called with the lock held."""
         self.matched.remove(other)
-        self._report_matched(-1)
-
-    def _report_matched(self, change: int) -> None:
-        status = EventStatus(self._matched_count, max(change, 0), len(self.matched), change)
-        self._event(EventKind.MATCHED).add(status)
+        self._report_matched(-1, len(self.matched))
 
     def refuse(self, policy: int) -> None:
         """Report an endpoint of the other kind that does not match because of a QoS policy.
@@ -140,8 +129,7 @@ class LocalEndpoint(Entity):
             self._leave()
             self.matched.clear()
             self._queue.clear()
-            for event in self._events.values():
-                event.close()
+            self._close_events()
 
     def _leave(self) -> None:
         """Take leave of the bus and the node; called with the lock held."""

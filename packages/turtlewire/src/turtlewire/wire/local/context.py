@@ -143,15 +143,6 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
         assert self._on_message is not None
         deliver(self.take(limit=len(self._queue)), self._on_message, lambda: self._closed)
 
-    @property
-    def is_waiting(self) -> bool:
-        """True if messages are waiting."""
-        return bool(self._queue)
-
-    def take(self, limit: int = 32) -> list[Message]:
-        with self._lock:
-            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
-
     def publisher_count(self) -> int:
         return len(self.matched)
 
@@ -159,8 +150,7 @@ class LocalSubscription(LocalEndpoint, Queued, Subscription):
         self._core.endpoints.discard(self)
         self._core.bus.remove_subscription(self)
         self._core.bus.changed()
-        for watcher in list(self.watchers):
-            watcher.detach(self)
+        self.leave_watchers()
 
 
 class LocalNode(CheckedNode):

@@ -12,8 +12,8 @@ rare and are queued on Zenoh's receiving threads. The context's reader thread ca
 ===========================  ==================================================================
 module                       contents
 ===========================  ==================================================================
-`tokens`                     `Token`: a node or an endpoint in the graph, with its QoS
-`attachment`                 the attachment of a message, 33 bytes
+`protocol`                   `Token`: a node or an endpoint in the graph, with its QoS; the
+                             attachment of a message, 33 bytes
 `configuration`              the configuration of sessions and routers, ``ZENOH_*``, shared memory
 `library`                    the import of ``eclipse-zenoh``
 `context`                    a participant and its nodes

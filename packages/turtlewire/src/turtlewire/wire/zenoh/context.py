@@ -25,10 +25,10 @@ from .context_state import ZenohContextState
 from .graph import ZenohGraph
 from .inlet import ZenohSinkSubscription, ZenohSubscription
 from .library import reason_of
+from .protocol import NODE, Token
 from .publisher import ZenohPublisher
 from .router import wait_for_router
 from .services import ZenohClient, ZenohService
-from .tokens import NODE, Token
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import (

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from .configuration import SharedMemory
     from .graph import ZenohGraph
-    from .tokens import Token
+    from .protocol import Token
 
 
 class Owner(Protocol):

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
 from turtlewire.wire import names
-from turtlewire.wire.base import Entity, EventKind, EventStatus
-from turtlewire.wire.events import StatusEvent
+from turtlewire.wire.base import Entity, EventKind
+from turtlewire.wire.events import EventSource
 
-from .tokens import adapted, format_qos
+from .protocol import adapted, format_qos
 
 if TYPE_CHECKING:
     from typing import Protocol
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.qos import QoS
 
     from .context_state import Owner, ZenohContextState
-    from .tokens import Token
+    from .protocol import Token
 
     class Declared(Protocol):
         """An object that Zenoh returns for a publisher, a subscriber and the like."""
@@ -30,14 +30,14 @@ if TYPE_CHECKING:
             """Take it back."""
 
 
-class ZenohEndpoint(Entity):
+class ZenohEndpoint(EventSource, Entity):
     """An endpoint with its token. The context's lock guards its state.
 
     Attributes:
         token: How the graph shows it.
         gid: 16 bytes, which its messages carry.
         qos: Its policies, without system defaults.
-        partners: The endpoints that it matches, by gid.
+        partners: The endpoints that it matches, by the text of their tokens.
     """
 
     #: The kind of its token, and the events that can be asked for.
@@ -48,6 +48,7 @@ class ZenohEndpoint(Entity):
     def __init__(
         self, core: ZenohContextState, node: Owner, name: str, type_id: TypeId, qos: QoS
     ) -> None:
+        super().__init__(core.lock)
         self.topic = name
         self.qos = adapted(qos)
         self.partners: dict[str, Token] = {}
@@ -62,14 +63,11 @@ class ZenohEndpoint(Entity):
         self.gid: bytes = self.token.gid
         self._core = core
         self._node = node
-        self._lock = core.lock
         # Held while something is sent: Zenoh does not take back what another thread uses. A signal
         # handler or finalizer of the sending thread may send, too.
         self._sending = threading.RLock()
         self._closed = False
         self._declared: list[Declared] = []
-        self._matched_count = 0
-        self._events: dict[EventKind, StatusEvent] = {}
 
     def announce(self, declared: Declared) -> None:
         """Keep what was declared for its data, and show it in the graph."""
@@ -93,23 +91,14 @@ class ZenohEndpoint(Entity):
             )
         return self._event(kind)
 
-    def _event(self, kind: EventKind) -> StatusEvent:
-        with self._lock:
-            return self._events.setdefault(kind, StatusEvent(kind))
-
     def meet(self, partner: Token) -> None:
         if partner.text not in self.partners:
             self.partners[partner.text] = partner
-            self._matched_count += 1
-            self._report_matched(1)
+            self._report_matched(1, len(self.partners))
 
     def part(self, partner: Token) -> None:
         if self.partners.pop(partner.text, None) is not None:
-            self._report_matched(-1)
-
-    def _report_matched(self, change: int) -> None:
-        status = EventStatus(self._matched_count, max(change, 0), len(self.partners), change)
-        self._event(EventKind.MATCHED).add(status)
+            self._report_matched(-1, len(self.partners))
 
     def close(self) -> None:
         if self._core.process != os.getpid():  # see `Entity.close`
@@ -126,6 +115,5 @@ class ZenohEndpoint(Entity):
         self._core.graph.remove(self.token)
         with self._lock:
             self.partners.clear()
-            for event in self._events.values():
-                event.close()
+            self._close_events()
         self._node.forget(self)

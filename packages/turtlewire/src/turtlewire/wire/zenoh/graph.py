@@ -15,7 +15,7 @@ from turtlewire.wire.graph import GraphView
 from turtlewire.wire.qos import QoS
 from turtlewire.wire.report import warn_once
 
-from .tokens import CLIENT, NODE, PUBLISHER, SERVICE, SUBSCRIPTION, Token, graph_key, parse_qos
+from .protocol import CLIENT, NODE, PUBLISHER, SERVICE, SUBSCRIPTION, Token, graph_key, parse_qos
 
 if TYPE_CHECKING:
     import zenoh

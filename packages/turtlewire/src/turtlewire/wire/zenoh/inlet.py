@@ -20,9 +20,8 @@ from turtlewire.wire.queue_wait_set import Queued
 from turtlewire.wire.reader_thread import deliver
 from turtlewire.wire.report import warn_once
 
-from .attachment import Attachment
 from .endpoint import ZenohEndpoint
-from .tokens import SUBSCRIPTION
+from .protocol import SUBSCRIPTION, Attachment
 
 if TYPE_CHECKING:
     from typing import Any
@@ -33,7 +32,7 @@ if TYPE_CHECKING:
 
     from .context_state import Owner, ZenohContextState
     from .endpoint import Declared
-    from .tokens import Token
+    from .protocol import Token
 
     OnMessage = Callable[[bytes, MessageInfo], None]
     from turtlewire.wire.base import Sink
@@ -156,22 +155,12 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         super().part(partner)
         self._last_numbers.pop(partner.gid, None)
 
-    @property
-    def is_waiting(self) -> bool:
-        """True if messages are waiting."""
-        return bool(self._queue)
-
-    def take(self, limit: int = 32) -> list[tuple[bytes, MessageInfo]]:
-        with self._lock:
-            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
-
     def publisher_count(self) -> int:
         return len(self.partners)
 
     def close(self) -> None:
         super().close()
-        for watcher in list(self.watchers):
-            watcher.detach(self)
+        self.leave_watchers()
         with self._lock:
             self._queue.clear()
 

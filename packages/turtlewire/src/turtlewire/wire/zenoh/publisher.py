@@ -14,10 +14,9 @@ from turtlewire.wire.base import Publisher
 from turtlewire.wire.encapsulation import is_message, joined, no_message
 from turtlewire.wire.qos import Durability, History, Reliability
 
-from .attachment import pack_attachment
 from .endpoint import ZenohEndpoint
 from .library import reason_of
-from .tokens import PUBLISHER
+from .protocol import PUBLISHER, pack_attachment
 
 if TYPE_CHECKING:
     from typing import Any

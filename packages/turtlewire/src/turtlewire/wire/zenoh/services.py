@@ -18,10 +18,9 @@ from turtlewire.wire.qos import History
 from turtlewire.wire.queue_wait_set import Queued
 from turtlewire.wire.report import warn_once
 
-from .attachment import Attachment, pack_attachment
 from .endpoint import ZenohEndpoint
 from .library import reason_of
-from .tokens import CLIENT, SERVICE
+from .protocol import CLIENT, SERVICE, Attachment, pack_attachment
 
 if TYPE_CHECKING:
     from typing import Any
@@ -31,7 +30,7 @@ if TYPE_CHECKING:
     from turtlewire.wire.queue_wait_set import Watcher
 
     from .context_state import Owner, ZenohContextState
-    from .tokens import Token
+    from .protocol import Token
 
 #: The result of an action is awaited without limit.
 _NO_LIMIT_S = 1e9
@@ -59,20 +58,9 @@ class _QueuedEndpoint(ZenohEndpoint, Queued):
             self._queue.popleft() if len(self._queue) > (self._limit or len(self._queue)) else None
         )
 
-    @property
-    def is_waiting(self) -> bool:
-        """True if something waits to be taken."""
-        return bool(self._queue)
-
-    def take(self, limit: int = 32) -> list[Any]:
-        """Take up to ``limit`` responses or requests."""
-        with self._lock:
-            return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
-
     def close(self) -> None:
         super().close()
-        for watcher in list(self.watchers):
-            watcher.detach(self)  # type: ignore[arg-type]  # both subclasses are waitable
+        self.leave_watchers()
         with self._lock:
             self._queue.clear()
 

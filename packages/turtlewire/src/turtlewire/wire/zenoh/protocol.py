@@ -1,4 +1,7 @@
-"""Liveliness tokens: texts that announce nodes and endpoints, with their QoS.
+"""The texts and bytes of rmw_zenoh_cpp's protocol: liveliness tokens and attachments.
+
+Tokens announce nodes and endpoints, with their QoS. An attachment accompanies each message, request
+and response.
 
 The notation of a QoS is
 ``<reliability>:<durability>:<history>,<depth>:<deadline>:<lifespan>:<liveliness>,<lease>`` with
@@ -7,6 +10,7 @@ numbers of rmw, durations as ``<s>,<ns>``, and nothing where a value is rmw_zeno
 
 from __future__ import annotations
 
+from struct import Struct
 from typing import NamedTuple
 
 from turtlewire.wire.qos import (
@@ -125,7 +129,7 @@ class Token(NamedTuple):
         name: Fully qualified name of the topic or service; empty for nodes.
         dds_type: ``std_msgs::msg::dds_::String_``; of a service, its own type.
         type_hash: ``RIHS01_`` and 64 digits.
-        qos: See `qos_text`.
+        qos: See `format_qos`.
     """
 
     domain_id: int
@@ -191,3 +195,42 @@ class Token(NamedTuple):
 def graph_key(domain_id: int) -> str:
     """Return the expression that all tokens of a domain meet."""
     return f"{_SPACE}/{domain_id}/**"
+
+
+_GID_SIZE = 16
+_LAYOUT = Struct(f"<qqB{_GID_SIZE}s")
+#: rmw_zenoh_cpp 0.2.0 to 0.2.3 wrote the name of each value in front of it.
+_NAMED_LAYOUT = Struct(f"<16xq17xq11xB{_GID_SIZE}s")
+
+
+class Attachment(NamedTuple):
+    """Origin of a message.
+
+    Attributes:
+        sequence_number: Counted by the publisher or client from 1.
+        source_timestamp_ns: When it was written, system time.
+        gid: 16 bytes, of the publisher; beside requests and their responses, of the client.
+    """
+
+    sequence_number: int
+    source_timestamp_ns: int
+    gid: bytes
+
+    @classmethod
+    def unpack(cls, data: bytes) -> Attachment:
+        """Read either layout.
+
+        Raises:
+            ValueError: The bytes have neither layout.
+        """
+        for layout in (_LAYOUT, _NAMED_LAYOUT):
+            if len(data) == layout.size:
+                sequence_number, source_timestamp_ns, size, gid = layout.unpack(data)
+                if size == _GID_SIZE:
+                    return cls(sequence_number, source_timestamp_ns, gid)
+        raise ValueError(f"an attachment of {len(data)} bytes is not one of rmw_zenoh_cpp")
+
+
+def pack_attachment(sequence_number: int, source_timestamp_ns: int, gid: bytes) -> bytes:
+    """Return the 33 bytes of an `Attachment`, as ROS 2 Jazzy (0.2.4) and later write them."""
+    return _LAYOUT.pack(sequence_number, source_timestamp_ns, _GID_SIZE, gid)
