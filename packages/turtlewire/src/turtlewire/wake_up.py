@@ -10,6 +10,16 @@ if TYPE_CHECKING:
     import asyncio
 
 
+_LONGEST_NS = int(threading.TIMEOUT_MAX * 1_000_000_000)
+
+
+def seconds_of(timeout_ns: int | None) -> float | None:
+    """Convert a timeout to seconds; None (no limit) for more than a thread can wait."""
+    if timeout_ns is None or timeout_ns >= _LONGEST_NS:
+        return None
+    return max(timeout_ns, 0) / 1e9
+
+
 class WakeUp:
     """Ends a wait of another thread; each wait clears it.
 

@@ -19,7 +19,6 @@ from turtlewire.wire.qos import QoS
 from turtlewire.wire.services import RequestId, join_header
 
 LONG = 60_000_000_000
-EMPTY = "std_srvs/srv/Empty"
 CDR = b"\x00\x01\x00\x00\x07\x00\x00\x00"
 FAST = "Fast DDS (rmw_fastrtps_cpp)"
 GUID = bytes.fromhex("010f") + bytes(range(10)) + b"\x00\x00\x09\x04"

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from tests.places import ROOT
 
+from tests import programs
 from turtlewire.wire import libddsc
 from turtlewire.wire.libddsc import find_libddsc
 
@@ -28,7 +29,6 @@ SUITE = [
     "wire/test_silent_peers.py",
     "wire/test_taking.py",
     "wire/test_two_hosts.py",
-    "wire/test_taking.py",
     "tf/test_intake.py",
     "tf/test_listener.py",
     "tf/test_listener_lifetime.py",
@@ -115,14 +115,7 @@ def test_an_unknown_version_is_told_and_not_taken(system, monkeypatch, version):
 
 
 def run_python(code: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-        env=os.environ | environment,
-    )
+    return programs.run_python(code, check=False, timeout=60, env=os.environ | environment)
 
 
 def test_zenoh_is_taken_instead_of_an_unknown_version(tmp_path):

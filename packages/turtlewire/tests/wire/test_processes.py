@@ -22,9 +22,9 @@ REQUEST = TypeId("std_srvs/srv/SetBool_Request", "RIHS01_" + "1" * 64)
 RESPONSE = TypeId("std_srvs/srv/SetBool_Response", "RIHS01_" + "2" * 64)
 SWITCH = ServiceTypes("std_srvs/srv/SetBool", REQUEST, RESPONSE, lambda _: "RIHS01_" + "3" * 64)
 LONG = 60_000_000_000
-#: For a peer that is missed after five minutes only, unless it says that it goes.
 #: Python 3.12 and later warn that a process with threads forks.
 QUIET_FORK = ("-W", "ignore:This process:DeprecationWarning")
+#: For a peer that is missed after five minutes only, unless it says that it goes.
 LONG_LEASE = {"CYCLONEDDS_URI": "<Discovery><LeaseDuration>300s</LeaseDuration></Discovery>"}
 
 
@@ -172,6 +172,20 @@ def test_a_process_that_forgets_to_close_ends_and_says_goodbye(context: Context)
     assert graph.wait_for(lambda: graph.nodes() == [], LONG)
 
 
+def output(code: str, **environment: str) -> str:
+    """Return what a program that forks prints; it must not warn or fail."""
+    done = subprocess.run(
+        [sys.executable, *QUIET_FORK, "-c", code],
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert done.stderr == ""
+    return done.stdout
+
+
 def test_a_forked_child_is_told_so_and_ends_quietly(context: Context):
     code = (
         "import os, warnings\n"
@@ -185,17 +199,8 @@ def test_a_forked_child_is_told_so_and_ends_quietly(context: Context):
         "else:\n"
         "    os.wait()\n"
     )
-    done = subprocess.run(
-        [sys.executable, *QUIET_FORK, "-c", code],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
-    )
-    assert (
-        done.stdout == "create node child: the context was opened before this process was forked\n"
-    )
-    assert done.stderr == ""
+    refused = "create node child: the context was opened before this process was forked\n"
+    assert output(code) == refused
 
 
 def test_a_forked_child_may_close_what_it_inherits(context: Context):
@@ -221,15 +226,7 @@ def test_a_forked_child_may_close_what_it_inherits(context: Context):
         "    os.wait()\n"
         "    print(len(context.graph.nodes()))\n"
     )
-    done = subprocess.run(
-        [sys.executable, *QUIET_FORK, "-c", code],
-        env=os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"},
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
-    )
-    assert (done.stdout, done.stderr) == ("closed\n1\n", "")
+    assert output(code, ROS_AUTOMATIC_DISCOVERY_RANGE="OFF") == "closed\n1\n"
 
 
 def forked(before: str) -> str:
@@ -249,17 +246,7 @@ def forked(before: str) -> str:
         "else:\n"
         "    os.wait()\n"
     )
-    variables = os.environ | {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"}
-    done = subprocess.run(
-        [sys.executable, *QUIET_FORK, "-c", code],
-        env=variables,
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
-    )
-    assert done.stderr == ""
-    return done.stdout
+    return output(code, ROS_AUTOMATIC_DISCOVERY_RANGE="OFF")
 
 
 def test_a_forked_child_opens_a_context_only_where_the_parent_has_none(context: Context):

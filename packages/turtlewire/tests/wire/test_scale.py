@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -59,6 +60,21 @@ def test_a_thousand_endpoints_take_a_handful_of_announcements(contexts: list[Con
     assert len(announcements) <= 3 + elapsed // ANNOUNCEMENT_INTERVAL_NS
 
 
+@contextmanager
+def standing_still(context: Context, publisher):
+    """Have a peer subscribe to what the publisher publishes, and take nothing."""
+    with subprocess.Popen(
+        [sys.executable, PEERS / "echo.py"], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as peer:
+        assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
+        peer.send_signal(signal.SIGSTOP)
+        try:
+            yield
+        finally:
+            peer.send_signal(signal.SIGCONT)
+        peer.communicate()
+
+
 def publish_often(publisher, message: bytes) -> None:
     for _ in range(1000):
         publisher.publish(message)
@@ -68,25 +84,11 @@ def test_a_publisher_gives_up_on_a_subscription_that_stands_still(contexts: list
     context = contexts[0]
     keep_all = QoS(history=History.KEEP_ALL)
     publisher = context.create_node("talker").create_publisher("/to_peer", STRING, keep_all)
-    with subprocess.Popen(
-        [sys.executable, PEERS / "echo.py"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as peer:
-        assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
-        peer.send_signal(signal.SIGSTOP)
-        big = MESSAGE + bytes(100_000)
-        try:
-            with pytest.raises(
-                WireError,
-                match=r"/to_peer: not sent, a reliable subscription did not keep up for 1 s",
-            ) as caught:
-                publish_often(publisher, big)
-            assert "KEEP_LAST" in caught.value.hint
-        finally:
-            peer.send_signal(signal.SIGCONT)
-        peer.communicate()
+    refused = r"/to_peer: not sent, a reliable subscription did not keep up for 1 s"
+    with standing_still(context, publisher):
+        with pytest.raises(WireError, match=refused) as caught:
+            publish_often(publisher, MESSAGE + bytes(100_000))
+        assert "KEEP_LAST" in caught.value.hint
     publisher.publish(MESSAGE)
 
 
@@ -104,25 +106,14 @@ def test_close_is_not_held_up_by_a_blocked_publisher(contexts: list[Context]):
         except WireError as error:
             errors.append(str(error))
 
-    with subprocess.Popen(
-        [sys.executable, PEERS / "echo.py"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as peer:
-        assert context.graph.wait_for(lambda: publisher.subscription_count() == 1, LONG)
-        peer.send_signal(signal.SIGSTOP)
-        try:
-            thread = threading.Thread(target=flood)
-            thread.start()
-            thread.join(0.3)
-            context.close()
-            thread.join(60)
-            assert not thread.is_alive()
-            assert len(errors) == 1
-        finally:
-            peer.send_signal(signal.SIGCONT)
-        peer.communicate()
+    with standing_still(context, publisher):
+        thread = threading.Thread(target=flood)
+        thread.start()
+        thread.join(0.3)
+        context.close()
+        thread.join(60)
+        assert not thread.is_alive()
+        assert len(errors) == 1
 
 
 def test_threads_may_publish_take_and_close_at_the_same_time(contexts: list[Context]):

@@ -21,7 +21,6 @@ module            contents
 `report`          warnings on stderr, each printed once
 `reader_thread`   the thread that calls callbacks
 `queue_wait_set`  wait sets over queues of Python
-`timeouts`        timeouts as the functions that wait take them
 `wheels`          the platforms for which PyPI has wheels of the libraries
 `cyclone`         Cyclone DDS
 `zenoh`           Zenoh, as rmw_zenoh_cpp speaks it

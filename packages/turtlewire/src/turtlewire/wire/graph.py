@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.errors import CdrError
 from turtlewire.guarded import call_guarded
+from turtlewire.wake_up import seconds_of
 
-from . import names, timeouts
+from . import names
 from .base import EndpointInfo, Graph, TypeId
 from .qos import fit_publisher, fit_subscription
 
@@ -199,7 +200,7 @@ class GraphView(Graph):
         return _grouped(pairs)
 
     def wait_for(self, predicate: Callable[[], bool], timeout_ns: int | None = None) -> bool:
-        timeout = timeouts.of_threading(timeout_ns)
+        timeout = seconds_of(timeout_ns)
         deadline = None if timeout is None else time.monotonic() + timeout
         while True:
             seen = self._version

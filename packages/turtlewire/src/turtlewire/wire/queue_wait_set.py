@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from turtlewire.errors import WireError
+from turtlewire.wake_up import seconds_of
 
-from . import timeouts
 from .base import Entity, WaitSet
 from .events import EventWatcher, StatusEvent
 from .services import TopicClient, TopicService
@@ -115,7 +115,7 @@ class QueueWaitSet(EventWatcher, WaitSet):
 
     def wait(self, timeout_ns: int | None = None) -> list[Entity]:
         with self._lock:
-            self._condition.wait_for(self._has_news, timeouts.of_threading(timeout_ns))
+            self._condition.wait_for(self._has_news, seconds_of(timeout_ns))
             self._woken = self._closed
             ready: list[Entity] = [
                 entity for queue, entity in self._attached.items() if queue.is_waiting

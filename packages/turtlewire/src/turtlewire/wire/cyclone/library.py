@@ -30,6 +30,7 @@ from typing import Any
 
 from turtlewire.errors import WireError
 from turtlewire.wire.libddsc import Abi, Libddsc, find_libddsc
+from turtlewire.wire.qos import INFINITE_NS
 from turtlewire.wire.report import warn_once
 
 ANY_STATE = 127
@@ -361,6 +362,11 @@ qget_deadline = _short("dds_qget_deadline", c_bool, c_void_p, POINTER(c_int64))
 qget_lifespan = _short("dds_qget_lifespan", c_bool, c_void_p, POINTER(c_int64))
 qget_liveliness = _short("dds_qget_liveliness", c_bool, c_void_p, POINTER(c_int), POINTER(c_int64))
 qget_user_data = _short("dds_qget_userdata", c_bool, c_void_p, POINTER(c_void_p), POINTER(c_size_t))
+
+
+def duration(timeout_ns: int | None) -> int:
+    """Limit a timeout to the range of DDS: from 0 to its infinite duration."""
+    return INFINITE_NS if timeout_ns is None else min(max(timeout_ns, 0), INFINITE_NS)
 
 
 def check(code: int, what: str) -> int:

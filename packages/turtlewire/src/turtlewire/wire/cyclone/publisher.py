@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, ClassVar, cast
 
 from turtlewire.errors import WireError
-from turtlewire.wire import timeouts
 from turtlewire.wire.base import EventKind, Publisher
 from turtlewire.wire.encapsulation import joined, no_message
 
@@ -127,7 +126,7 @@ class CyclonePublisher(Endpoint, Publisher):
         dds.check(dds.assert_liveliness(self.handle), f"assert liveliness on {self.topic}")
 
     def wait_for_acknowledgments(self, timeout_ns: int) -> bool:
-        code = dds.wait_for_acks(self.handle, timeouts.of_dds(timeout_ns))
+        code = dds.wait_for_acks(self.handle, dds.duration(timeout_ns))
         if code == dds.RETCODE_TIMEOUT:
             return False
         dds.check(code, f"wait for acknowledgments on {self.topic}")

@@ -8,7 +8,6 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from turtlewire.wire import timeouts
 from turtlewire.wire.base import Entity, WaitSet
 from turtlewire.wire.events import EventWatcher, StatusEvent
 from turtlewire.wire.services import TopicClient, TopicService
@@ -59,7 +58,7 @@ class ConditionSet(Generic[T]):
     def wait(self, timeout_ns: int | None) -> list[T]:
         """Block until something is triggered or :meth:`wake` is called; one thread at a time."""
         triggered = self._triggered
-        count = _wait(self._wait_set, triggered, len(triggered), timeouts.of_dds(timeout_ns))
+        count = _wait(self._wait_set, triggered, len(triggered), dds.duration(timeout_ns))
         if count < 0:
             if self._closed:
                 return []
