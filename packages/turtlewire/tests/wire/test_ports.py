@@ -7,6 +7,7 @@ import time
 import pytest
 
 from turtlewire.wire import environment, open_context
+from turtlewire.wire.cyclone import ports
 from turtlewire.wire.cyclone.ports import max_processes, process_of, processes_on_host
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux lists the bound ports")
@@ -92,6 +93,19 @@ def test_nothing_is_counted_on_systems_without_counts(monkeypatch):
 
     monkeypatch.setattr("builtins.open", refuse)
     assert processes_on_host(7) is None
+
+
+def test_a_kernel_without_ipv6_still_counts(monkeypatch, participant):
+    def open_ipv4(path, *args, **options):
+        if path.endswith("udp6"):
+            raise FileNotFoundError
+        return open(path, *args, **options)
+
+    domain = environment.domain_id()
+    before = processes_on_host(domain)
+    participant("one")
+    monkeypatch.setattr(ports, "open", open_ipv4, raising=False)
+    assert processes_on_host(domain) == before + 1
 
 
 def test_each_domain_holds_120_processes_but_the_last_one():

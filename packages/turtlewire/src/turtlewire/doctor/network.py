@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import re
 import socket
-from collections.abc import Iterable
-from pathlib import Path
 
-# How DDS computes its ports: a domain has 250, of which participants take those from the tenth on.
-_FIRST_PORT, _PORTS_OF_DOMAIN, _FIRST_OF_PARTICIPANTS = 7400, 250, 10
+from turtlewire.wire.cyclone import ports
+
 #: The ports of the domains above it are among those that systems assign to any program.
 _LAST_SURE_DOMAIN = 101
 
@@ -18,27 +15,13 @@ GROUP = "239.255.0.1"
 
 def udp_ports() -> set[int]:
     """Return the UDP ports that are in use on this host; empty on systems that do not tell."""
-    ports: set[int] = set()
-    for table in ("/proc/net/udp", "/proc/net/udp6"):
-        try:
-            text = Path(table).read_text(encoding="ascii")
-        except OSError:
-            continue
-        ports |= {
-            int(port, 16)
-            for port in re.findall(r"^\s*\d+: [0-9A-F]+:([0-9A-F]{4}) ", text, re.MULTILINE)
-        }
-    return ports
+    return ports.udp_ports() or set()
 
 
-def domains_of(ports: Iterable[int]) -> set[int]:
+def domains_of(used: set[int]) -> set[int]:
     """Return the ROS domains that UDP ports belong to."""
-    found = set()
-    for port in ports:
-        domain, offset = divmod(port - _FIRST_PORT, _PORTS_OF_DOMAIN)
-        if 0 <= domain <= _LAST_SURE_DOMAIN and offset >= _FIRST_OF_PARTICIPANTS:
-            found.add(domain)
-    return found
+    domains = range(_LAST_SURE_DOMAIN + 1)
+    return {each for each in domains if not used.isdisjoint(ports.unicast_ports_of(each))}
 
 
 def other_domains(domain: int) -> list[int]:

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire import msg
 from turtlewire.distro import current_distro
+from turtlewire.doctor.graph_findings import owner_of
 from turtlewire.errors import CdrError
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.faults import refusals
 from turtlewire.tf.tf_topics import TfTopics
 from turtlewire.wire.base import TypeId
-from turtlewire.wire.names import fully_qualified_node_name
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
 if TYPE_CHECKING:
@@ -211,11 +211,7 @@ class TfListener:
 
 
 def _owners(graph: Graph) -> dict[bytes, str]:
-    return {
-        end.gid: fully_qualified_node_name(end.node.name, end.node.namespace)
-        for end in graph.endpoints()
-        if end.node is not None
-    }
+    return {end.gid: owner_of(end) for end in graph.endpoints() if end.node is not None}
 
 
 def _time_of(cdr: bytes) -> int | None:

@@ -8,6 +8,7 @@ waiting, if discovery has found all processes.
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 
 _BASE = 7400
 _PER_DOMAIN = 250
@@ -42,18 +43,25 @@ def unicast_ports_of(domain_id: int) -> range:
     return range(_first_port(domain_id), ports_of(domain_id).stop)
 
 
-def processes_on_host(domain_id: int) -> int | None:
-    """Return the number of processes of the domain in this host's network namespace.
+def udp_ports() -> set[int] | None:
+    """Return the UDP ports that are in use in this host's network namespace.
 
     None where the kernel does not tell (only Linux does).
     """
-    first = _first_port(domain_id)
-    ports: set[int] = set()
-    try:
-        for table in ("/proc/net/udp", "/proc/net/udp6"):
-            with open(table, encoding="ascii") as file:
-                ports.update(int(port, 16) for port in _LOCAL_PORT.findall(file.read()))
-    except OSError:
+    ports: set[int] | None = None
+    for table in ("/proc/net/udp", "/proc/net/udp6"):  # a kernel without IPv6 has only the first
+        with suppress(OSError), open(table, encoding="ascii") as file:
+            ports = {int(port, 16) for port in _LOCAL_PORT.findall(file.read())}.union(ports or ())
+    return ports
+
+
+def processes_on_host(domain_id: int) -> int | None:
+    """Return the number of processes of the domain in this host's network namespace.
+
+    None where the kernel does not tell.
+    """
+    first, ports = _first_port(domain_id), udp_ports()
+    if ports is None:
         return None
     return sum(first + _PER_PARTICIPANT * index in ports for index in range(_MAX_PROCESSES))
 
