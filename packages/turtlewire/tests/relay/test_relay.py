@@ -277,6 +277,24 @@ def test_frames_get_a_prefix_and_lose_it(networks, relay):
     assert frames_of(received.next()) == [("map", "odom")]
 
 
+def test_names_that_ros_does_not_allow_end_no_relay(networks, relay):
+    """Programs on plain DDS, and nodes on Zenoh, may have any name."""
+    near, far = networks
+    bare = QoS(avoid_ros_namespace_conventions=True)
+    near.node.create_publisher("rt/2words", SECRET, bare)
+    near.node.create_subscription("rq/2wordsRequest", ASK.request, bare)
+    near.node.create_publisher(f"/{'x' * 240}", SECRET, QoS())  # too long within the namespace
+    near.context.create_node("two#words").create_publisher("/odd_owner", SECRET, QoS())
+    program = relay(near, far, "--namespace", "/robot1")
+    far.wait_for(lambda: far.relays("/robot1/odd_owner", "publisher"))
+    received = far.subscribe("/robot1/secret")
+    near.publish("/secret").publish(cdr("there"))
+    assert received.next()[:16] == cdr("there")
+    told = program.text
+    for name in ("/2words", "service /2words", "xxx"):
+        assert f"{name} is not carried: topic " in told
+
+
 def test_of_two_relays_one_waits_for_the_end_of_the_other(networks, relay):
     near, far = networks
     first = relay(near, far)

@@ -113,6 +113,8 @@ class Direction:
         far_topic = self._ways.name(topic)
         if key in self._topics or far_topic is None:
             return
+        if _is_refused(topic, topic, far_topic):
+            return
         type_id = TypeId(type_name, type_hash or installed_hash(type_name))
         if not type_id.type_hash and (self._near.end.is_zenoh or self._far.end.is_zenoh):
             warn_once(
@@ -135,7 +137,9 @@ class Direction:
         wanted = {
             key: (server, far_name)
             for key, server in servers.items()
-            if (far_name := self._ways.name(key[0])) is not None and far_name not in there
+            if (far_name := self._ways.name(key[0])) is not None
+            and far_name not in there
+            and not _is_refused(f"service {key[0]}", key[0], far_name)
         }
         for key in self._services.keys() - wanted.keys():
             self._services.pop(key).close()
@@ -167,6 +171,17 @@ class Direction:
     def _line(self, what: str, key: _Key, far_name: str) -> str:
         name, type_name = key
         return f"{what} [{type_name}]: {self._near.end} {name} -> {self._far.end} {far_name}"
+
+
+def _is_refused(what: str, *full_names: str) -> bool:
+    """Return True, after a warning, if ROS's rules do not allow one of the names at both ends.
+
+    Programs without ROS announce any name.
+    """
+    fault = next(filter(None, map(names.validate_full_topic_name, full_names)), None)
+    if fault is not None:
+        warn_once(f"relay {what}", f"{what} is not carried: {fault.message}")
+    return fault is not None
 
 
 def _topics_of(seen: Seen, kind: str) -> dict[_Key, list[EndpointInfo]]:

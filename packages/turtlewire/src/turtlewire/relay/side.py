@@ -178,7 +178,8 @@ class Side:
     def node_for(self, full_name: str, seen: Seen) -> Node:
         """Return the node that represents one of the other end.
 
-        It is the relay's own node if a node of this name is here already, or if it is hidden.
+        It is the relay's own node if a node of this name is here already, if it is hidden, or if
+        ROS's rules do not allow the name.
         """
         there = {
             names.fully_qualified_node_name(node.name, node.namespace)
@@ -189,9 +190,10 @@ class Side:
             return self.node
         if full_name not in self._nodes:
             namespace, _, name = full_name.rpartition("/")
-            self._nodes[full_name] = self._context.create_node(
-                name, namespace or "/", self._enclave
-            )
+            namespace = namespace or "/"
+            if names.validate_node_name(name) or names.validate_namespace(namespace):
+                return self.node
+            self._nodes[full_name] = self._context.create_node(name, namespace, self._enclave)
         return self._nodes[full_name]
 
     def keep_nodes(self, used: set[Node]) -> None:
