@@ -1,18 +1,29 @@
-"""A user's own interface package becomes Python modules: no compiler, no import hook."""
+"""A user's own interface package becomes Python modules: no compiler, no import hook.
 
+The examples of docs/interfaces.md are run.
+"""
+
+import doctest
 import importlib
 import os
+import re
 import subprocess
 import sys
 
 import pytest
-from tests.places import IMPORT_PATH
+from tests.places import IMPORT_PATH, ROOT
 from tests.programs import run_python
 
 from turtlewire.errors import InterfaceError
 from turtlewire.msg import registry
 from turtlewire.msg.generate import generate_package
 
+PAGE = ROOT / "docs" / "interfaces.md"
+OF_PAGE = {
+    "package.xml": "<package format='3'><name>my_interfaces</name></package>",
+    "msg/Sphere.msg": "geometry_msgs/Point center\nfloat64 radius 1.0\n",
+    "srv/Grow.srv": "Sphere sphere\nfloat64 by\n---\nSphere sphere\n",
+}
 FILES = {
     "package.xml": "<package format='3'><name>my_interfaces</name></package>",
     "msg/Sphere.msg": "geometry_msgs/Point center\nfloat64 radius 1.5\n",
@@ -69,12 +80,16 @@ def source(tmp_path):
     return folder
 
 
+def run_command(source, output):
+    command = [sys.executable, "-m", "turtlewire.msg", str(source), "--output", str(output)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
 @pytest.fixture
 def generated(source, tmp_path):
     """The folder to put on PYTHONPATH, made by the command line."""
     output = tmp_path / "out"
-    command = [sys.executable, "-m", "turtlewire.msg", str(source), "--output", str(output)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    done = run_command(source, output)
     assert done.stdout.startswith(f"{output / 'my_interfaces'} is ready")
     return output
 
@@ -185,15 +200,7 @@ def test_the_folder_names_a_package_without_package_xml(source, tmp_path, monkey
 
 def test_mistakes_end_the_command_with_a_line(source, tmp_path):
     (source / "msg" / "Sphere.msg").write_text("floot64 radius\n")
-    command = [
-        sys.executable,
-        "-m",
-        "turtlewire.msg",
-        str(source),
-        "--output",
-        str(tmp_path / "out"),
-    ]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = run_command(source, tmp_path / "out")
     assert done.returncode == 1
     assert (
         done.stderr
@@ -211,15 +218,7 @@ def test_the_package_is_not_written_into_its_own_sources(source):
 
 def test_an_output_that_cannot_be_written_ends_the_command_with_a_line(source, tmp_path):
     (tmp_path / "file").touch()
-    command = [
-        sys.executable,
-        "-m",
-        "turtlewire.msg",
-        str(source),
-        "--output",
-        str(tmp_path / "file"),
-    ]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = run_command(source, tmp_path / "file")
     assert done.returncode == 1
     assert "Not a directory" in done.stderr
     assert "Traceback" not in done.stderr
@@ -254,3 +253,27 @@ def test_an_idl_file_is_generated_unless_it_was_made_of_another(tmp_path):
     (source / "msg" / "Disc.idl").unlink()
     generate_package(source, tmp_path / "out", "shapes")
     assert not (folder / "msg" / "Disc.msg").exists()
+
+
+def test_the_examples_of_the_page_do_what_it_says(tmp_path, monkeypatch):
+    for name, text in OF_PAGE.items():
+        path = tmp_path / "my_interfaces" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        for line in text.splitlines() if name != "package.xml" else ():
+            assert line in PAGE.read_text()
+    (command,) = re.findall(r"```sh\n(.*)\n```", PAGE.read_text())
+    assert command.startswith("python ")
+    subprocess.run(
+        [sys.executable, *command.split()[1:]], cwd=tmp_path, check=True, capture_output=True
+    )
+    monkeypatch.syspath_prepend(str(tmp_path / "generated"))
+    failed, tried = doctest.testfile(str(PAGE), module_relative=False, optionflags=doctest.ELLIPSIS)
+    assert failed == 0
+    assert tried == 22
+
+
+def test_the_page_names_every_package():
+    page = PAGE.read_text()
+    for package in registry.interfaces():
+        assert f"`{package}`" in page or package == "my_interfaces"

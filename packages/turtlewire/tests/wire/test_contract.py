@@ -23,6 +23,7 @@ from turtlewire.wire.base import (
     Subscription,
     TypeId,
 )
+from turtlewire.wire.events import StatusEvent
 from turtlewire.wire.graph import DISCOVERY_TOPIC
 from turtlewire.wire.qos import (
     BEST_AVAILABLE_NS,
@@ -925,6 +926,18 @@ def test_incompatible_qos_events(
     assert wait_for_event(other, of_subscription, lambda _: True) == EventStatus(
         1, 1, last_policy_kind=policy
     )
+
+
+def test_changes_add_up_until_they_are_taken():
+    event = StatusEvent(EventKind.MATCHED)
+    assert event.take() is None
+    event.add(EventStatus(1, 1, 1, 1))
+    event.add(EventStatus(2, 1, 2, 1))
+    event.add(EventStatus(2, 0, 1, -1))
+    assert event.take() == EventStatus(2, 2, 1, 1)
+    assert event.take() is None
+    event.add(EventStatus(2, 0, 0, -1))
+    assert event.take() == EventStatus(2, 0, 0, -1)
 
 
 def test_events_and_messages_are_reported_by_one_wait_set(node: Node, other: Node):

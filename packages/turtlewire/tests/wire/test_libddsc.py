@@ -26,7 +26,6 @@ SUITE = [
     "wire/test_ports.py",
     "wire/test_processes.py",
     "wire/test_services.py",
-    "wire/test_silent_peers.py",
     "wire/test_taking.py",
     "wire/test_two_hosts.py",
     "tf/test_intake.py",

@@ -16,7 +16,6 @@ module                    contents
 `library`                 loads ``libddsc``, and declares its functions
 `configuration`           Cyclone's configuration for a domain
 `context`                 one participant
-`context_state`           the state that a context shares with its nodes
 `participant`             the DDS participant and its topics
 `node`                    creates endpoints, and announces them
 `announcer`               publishes ``ros_discovery_info``

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     )
     from turtlewire.wire.qos import QoS
 
-    from .context_state import CycloneContextState
+    from .context import CycloneContextState
 
 
 class CycloneNode(CheckedNode):
