@@ -22,9 +22,7 @@ from turtlewire.msg.registry import (
     interface_path,
     interface_text,
     interfaces,
-    load_action,
     load_message,
-    load_service,
 )
 
 HASHES = json.loads((places.GOLDEN / "distros" / "hashes.json").read_text())
@@ -263,15 +261,6 @@ def test_unknown_names_are_errors_that_help(name, text, hint):
         load_message(name)
     assert str(caught.value).partition("\n")[0] == text
     assert caught.value.hint.startswith(hint)
-
-
-def test_kinds_are_not_mixed_up():
-    with pytest.raises(InterfaceError, match="'turtlesim/srv/Spawn' is not a message"):
-        load_message("turtlesim/srv/Spawn")
-    with pytest.raises(InterfaceError, match="'turtlesim/msg/Pose' is not a service"):
-        load_service("turtlesim/msg/Pose")
-    with pytest.raises(InterfaceError, match="'turtlesim/msg/Pose' is not an action"):
-        load_action("turtlesim/msg/Pose")
 
 
 HEAVY = {

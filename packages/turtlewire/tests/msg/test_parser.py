@@ -176,7 +176,7 @@ module shapes { module msg {
       const long MANY = -3;
       const string LABEL = "round";
     };
-    @verbatim (language="comment", text="A shape\\n" "of two lines")
+    @verbatim (language="comment", text="A shape\\n" "of C:\\\\new")
     struct Shape {
       @default (value="none")
       string name;
@@ -200,7 +200,7 @@ module shapes { module msg {
 def test_a_message():
     assert idl_to_text("shapes/msg/Shape", SHAPE) == (
         "# A shape\n"
-        "# of two lines\n"
+        "# of C:\\new\n"
         "int32 MANY = -3\n"
         'string LABEL = "round"\n'
         'string name "none"\n'

@@ -5,7 +5,7 @@ Fields, constants, and the messages that services and actions imply.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.msg.types import AbstractNestedType, BasicType, BoundedSequence, NamespacedType
 
@@ -19,7 +19,7 @@ def split_name(full_name: str) -> tuple[str, str, str]:
     return package, kind, name
 
 
-class Field:
+class Field(NamedTuple):
     """One field of a message.
 
     Attributes:
@@ -29,15 +29,12 @@ class Field:
             gives none.
     """
 
-    __slots__ = ("default", "name", "type")
-
-    def __init__(self, name: str, type_: AbstractType, default: Any = None) -> None:
-        self.name = name
-        self.type = type_
-        self.default = default
+    name: str
+    type: AbstractType
+    default: Any = None
 
 
-class Constant:
+class Constant(NamedTuple):
     """One constant of a message.
 
     Attributes:
@@ -46,12 +43,9 @@ class Constant:
         value: Its Python value (``bytes`` of length one for ``byte``).
     """
 
-    __slots__ = ("name", "type", "value")
-
-    def __init__(self, name: str, type_: AbstractType, value: Any) -> None:
-        self.name = name
-        self.type = type_
-        self.value = value
+    name: str
+    type: AbstractType
+    value: Any
 
 
 class MessageDefinition:

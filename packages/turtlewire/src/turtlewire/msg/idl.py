@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import InterfaceError
-from turtlewire.msg.idl_reader import BASIC_TYPES, IdlReader, IdlStructure
+from turtlewire.msg.idl_reader import BASIC_TYPES, IdlReader, IdlStructure, unescaped
 from turtlewire.msg.types import AbstractNestedType, AbstractType, type_in_msg_file
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ class _Reader(IdlReader):
 
 def _comments(notes: Notes) -> list[str]:
     texts = [value["text"] for name, value in notes if name == "verbatim" and "text" in value]
-    return [f"# {line}\n" for text in texts[-1:] for line in _unquoted(text).splitlines()]
+    return [f"# {line}\n" for text in texts[-1:] for line in unescaped(text[1:-1]).splitlines()]
 
 
 def _fields(structure: IdlStructure) -> list[str]:
@@ -104,11 +104,7 @@ def _fields(structure: IdlStructure) -> list[str]:
         values = dict(notes).get("default") or ""
         default = values.get("value", "") if isinstance(values, dict) else values
         if isinstance(type_, AbstractNestedType) and default.startswith('"'):
-            default = _unquoted(default)  # IDL has lists in quotes
+            default = unescaped(default[1:-1])  # IDL has lists in quotes
         if name != _DUMMY:
             lines.append(f"{type_in_msg_file(type_)} {name} {default}".rstrip() + "\n")
     return lines
-
-
-def _unquoted(text: str) -> str:
-    return text[1:-1].replace("\\n", "\n").replace('\\"', '"').replace("\\\\", "\\")

@@ -38,6 +38,17 @@ _TYPE_IDS = {
     "boolean": 15,
     "octet": 16,
 }
+#: What services and actions consist of, and the attribute of its definition.
+_PARTS = {
+    ServiceDefinition: {
+        "request_message": "request", "response_message": "response", "event_message": "event",
+    },
+    ActionDefinition: {
+        "goal": "goal", "result": "result", "feedback": "feedback",
+        "send_goal_service": "send_goal", "get_result_service": "get_result",
+        "feedback_message": "feedback_message",
+    },
+}  # fmt: skip
 _NESTED, _STRING, _WSTRING, _BOUNDED_STRING, _BOUNDED_WSTRING = 1, 17, 18, 21, 22
 _ARRAY, _BOUNDED_SEQUENCE, _UNBOUNDED_SEQUENCE = 48, 96, 144
 
@@ -88,21 +99,10 @@ def members(definition: Definition) -> list[tuple[str, AbstractType]]:
 
     For services and actions, the messages and services they imply.
     """
-    if isinstance(definition, ServiceDefinition):
-        parts = {
-            "request_message": definition.request,
-            "response_message": definition.response,
-            "event_message": definition.event,
-        }
-        return [(name, NamespacedType.parse(part.full_name)) for name, part in parts.items()]
-    if isinstance(definition, ActionDefinition):
+    if isinstance(definition, (ServiceDefinition, ActionDefinition)):
         return [
-            ("goal", NamespacedType.parse(definition.goal.full_name)),
-            ("result", NamespacedType.parse(definition.result.full_name)),
-            ("feedback", NamespacedType.parse(definition.feedback.full_name)),
-            ("send_goal_service", NamespacedType.parse(definition.send_goal.full_name)),
-            ("get_result_service", NamespacedType.parse(definition.get_result.full_name)),
-            ("feedback_message", NamespacedType.parse(definition.feedback_message.full_name)),
+            (part, NamespacedType.parse(getattr(definition, name).full_name))
+            for part, name in _PARTS[type(definition)].items()
         ]
     if not definition.fields:
         return [("structure_needs_at_least_one_member", BasicType("uint8"))]
