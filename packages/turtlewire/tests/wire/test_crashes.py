@@ -122,8 +122,8 @@ def refuse(*_arguments):
     [
         "participant.dds.guid_of",
         "participant.Participant._check_types",
-        "context.CycloneReaderThread",
-        "context.Announcer",
+        "node.CycloneReaderThread",
+        "node.Announcer",
     ],
 )
 def test_a_context_that_fails_leaves_its_domain(monkeypatch, step: str):

@@ -196,7 +196,7 @@ def test_configuration_of_each_range():
 
 
 @pytest.mark.parametrize("chosen", Range)
-def test_what_every_range_is_told(chosen: Range):
+def test_every_range_leaves_heartbeats_and_enlarges_buffers(chosen: Range):
     domain = configuration(Discovery(chosen, ()))
     # Rarer heartbeats made `ros2 node list` beside 50 processes take 2.9 s instead of 0.5 s.
     assert domain.find("Internal/HeartbeatInterval") is None

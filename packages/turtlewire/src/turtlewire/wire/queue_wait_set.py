@@ -66,7 +66,7 @@ class Queued(Entity):
         """Refuse to wait for what will never come.
 
         Raises:
-            WireError: It is closed.
+            WireError: The entity is closed.
         """
         if self._closed:
             raise WireError(f"wait for {self.topic}: it is closed")

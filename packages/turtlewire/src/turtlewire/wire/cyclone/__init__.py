@@ -24,8 +24,8 @@ module                    contents
 `subscription`            bytes from a DDS reader
 `samples`                 takes and writes samples, by native code or through ctypes
 `native`                  the compiled half of this package, or None; the way to a native sink
-`services`                services in the layout of rmw_cyclonedds
-`servers`                 chooses the servers that get requests; requests to those on Fast DDS
+`services`                services in the layouts of rmw_cyclonedds and Fast DDS
+`servers`                 chooses the servers that get requests
 `fast_dds`                prepares the types of services for nodes on Fast DDS, and asks new clients
                           on it for their first request
 `waiting`                 wait sets

@@ -3,64 +3,21 @@
 from __future__ import annotations
 
 import atexit
-import itertools
 import os
 import threading
 from collections.abc import Callable
-from contextlib import ExitStack
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from turtlewire.errors import WireError
 from turtlewire.wire import names
 from turtlewire.wire.base import Context, EventKind
 
-from .announcer import Announcer
-from .fast_dds import receiving_addresses
 from .graph import CycloneGraph
-from .node import CycloneNode
-from .participant import Participant
-from .reader import CycloneReaderThread
+from .node import CycloneContextState, CycloneNode
 from .waiting import CycloneWaitSet, readable_part
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import Waitable, WaitSet
-
-
-class CycloneContextState:
-    """What a context shares with its nodes: participant, reader thread and announcements.
-
-    Attributes:
-        graph: None until the context is first asked for it: a program that never looks at the
-            graph does not read what peers announce.
-        closing: Whether the context is being closed.
-    """
-
-    def __init__(self, domain_id: int, enclave: str) -> None:
-        self.participant = Participant(domain_id, enclave)
-        with ExitStack() as if_it_fails:
-            if_it_fails.callback(self.participant.close)
-            self.reader = CycloneReaderThread(self.participant.handle)
-            if_it_fails.callback(self.reader.close)
-            self.announcer = Announcer(self.participant, self.reader)
-            if_it_fails.pop_all()
-        self.graph: CycloneGraph | None = None
-        self.closing = False
-        self._service_numbers = itertools.count(1)
-
-    @cached_property
-    def receiving_addresses(self) -> list[tuple[int, int]]:
-        """The IPv4 addresses, as numbers, and ports at which this process receives."""
-        return receiving_addresses(self.participant.domain_id)
-
-    def graph_changed(self) -> None:
-        """Notify the graph's listeners; called when a predicate on the graph may have changed."""
-        if self.graph is not None:
-            self.graph.notify_changed()
-
-    def next_service_number(self) -> int:
-        """Numbers the clients and services of this participant."""
-        return next(self._service_numbers)
 
 
 class CycloneContext(Context):

@@ -1,19 +1,27 @@
-"""A node: makes endpoints, and keeps the announcement of them up to date."""
+"""A node, and what its context shares with it.
+
+It makes endpoints, and keeps the announcement of them up to date.
+"""
 
 from __future__ import annotations
 
+import itertools
 import threading
 from collections.abc import Callable
 from contextlib import ExitStack
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from turtlewire.wire import names
 from turtlewire.wire.checked_node import CheckedNode
 from turtlewire.wire.graph import with_best_available
 
-from .announcer import NodeRecord
+from .announcer import Announcer, NodeRecord
 from .endpoint import Endpoint, EndpointSpec
+from .fast_dds import receiving_addresses
+from .participant import Participant
 from .publisher import CyclonePublisher
+from .reader import CycloneReaderThread
 from .servers import ONLY_CYCLONE
 from .services import CycloneClient, CycloneService, format_service_id
 from .subscription import CycloneSubscription, deliver_rest_to, deliver_to
@@ -32,7 +40,43 @@ if TYPE_CHECKING:
     )
     from turtlewire.wire.qos import QoS
 
-    from .context import CycloneContextState
+    from .graph import CycloneGraph
+
+
+class CycloneContextState:
+    """Participant, reader thread and announcements, which a context shares with its nodes.
+
+    Attributes:
+        graph: None until the context is first asked for it: a program that never looks at the
+            graph does not read what peers announce.
+        closing: Whether the context is being closed.
+    """
+
+    def __init__(self, domain_id: int, enclave: str) -> None:
+        self.participant = Participant(domain_id, enclave)
+        with ExitStack() as if_it_fails:
+            if_it_fails.callback(self.participant.close)
+            self.reader = CycloneReaderThread(self.participant.handle)
+            if_it_fails.callback(self.reader.close)
+            self.announcer = Announcer(self.participant, self.reader)
+            if_it_fails.pop_all()
+        self.graph: CycloneGraph | None = None
+        self.closing = False
+        self._service_numbers = itertools.count(1)
+
+    @cached_property
+    def receiving_addresses(self) -> list[tuple[int, int]]:
+        """The IPv4 addresses, as numbers, and ports at which this process receives."""
+        return receiving_addresses(self.participant.domain_id)
+
+    def graph_changed(self) -> None:
+        """Notify the graph's listeners; called when a predicate on the graph may have changed."""
+        if self.graph is not None:
+            self.graph.notify_changed()
+
+    def next_service_number(self) -> int:
+        """Numbers the clients and services of this participant."""
+        return next(self._service_numbers)
 
 
 class CycloneNode(CheckedNode):

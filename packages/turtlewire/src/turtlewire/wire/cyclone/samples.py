@@ -1,6 +1,6 @@
 """Samples of Cyclone: takes them from a reader and writes them to a writer.
 
-Native code does both, or ctypes where there is none.
+Native code does both; where it was not built, ctypes does.
 
 A sample is created from Cyclone's internal type of an entity. Cyclone 11 has a function that
 returns it. In 0.10 it is a pointer in the structure of the topic. The offset depends on the build
