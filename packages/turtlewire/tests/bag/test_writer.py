@@ -327,6 +327,30 @@ def test_the_length_of_a_file_counts_from_its_first_message_after_a_split(tmp_pa
     assert [file.message_count for file in writer.metadata.files] == [1, 2, 1]
 
 
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+@pytest.mark.parametrize("step", ["_finish_file", "_open_file"])
+def test_a_bag_that_cannot_begin_another_file_is_closed(tmp_path, monkeypatch, storage, step):
+    writer = BagWriter(tmp_path / "made", storage=storage)
+    writer.add_topic("/a", "std_msgs/msg/String")
+    writer.write("/a", bytes(8), 1)
+    original = getattr(BagWriter, step)
+
+    def full(*arguments):
+        if step == "_finish_file":
+            original(*arguments)
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(BagWriter, step, full)
+    with pytest.raises(OSError, match="No space left"):
+        writer.split()
+    writer.close()
+    with pytest.raises(BagError, match="is closed"):
+        writer.write("/a", bytes(8), 2)
+    with open_bag(tmp_path / "made") as bag:
+        assert [message.log_time_ns for message in bag] == [1]
+        assert (len(bag), len(bag.metadata.paths)) == (1, 1)
+
+
 def test_a_name_that_is_none_of_a_type(tmp_path):
     with (
         BagWriter(tmp_path / "made") as writer,

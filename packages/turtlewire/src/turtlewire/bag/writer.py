@@ -384,10 +384,18 @@ class BagWriter:
 
         Returns:
             Paths of the finished and of the new file.
+
+        Raises:
+            OSError: The disk is full, for example. The bag is closed then.
         """
-        finished = self._finish_file(self._open())
-        self._remove_old_files()
-        self._file = self._open_file()
+        file, self._file = self._open(), None
+        try:
+            finished = self._finish_file(file)
+            self._remove_old_files()
+            self._file = self._open_file()
+        finally:
+            if self._file is None:  # nothing can be written any more
+                write_metadata(self.path, self._whole_metadata())
         self._file_start_ns = None
         for key, channel in self._channels.items():
             self._ids[key] = self._define(self._file, channel)
