@@ -20,6 +20,7 @@ from turtlewire.bag.metadata import METADATA_FILE
 from turtlewire.bag.recording import Recording
 from turtlewire.bag.times import size_text
 from turtlewire.distro import LYRICAL, since
+from turtlewire.terminal.printable import printable
 from turtlewire.wire.names import validate_node_name, validate_topic_name
 
 if TYPE_CHECKING:
@@ -173,6 +174,9 @@ def _progress(recorder: BagRecorder, recording: Recording, seconds: float) -> st
 
 
 def _report_lost(recording: Recording) -> None:
+    for topic, (count, reason) in recording.refused.items():
+        text = f"{count} messages of {topic} were not recorded: {reason}"
+        get_logger("rosbag2_cpp").warning(printable(text))
     if recording.lost:
         lines = "".join(f"\n\t{topic}: {count}" for topic, count in recording.lost.items())
         total = sum(recording.lost.values())

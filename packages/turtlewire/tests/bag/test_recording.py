@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from turtlewire.bag import BagWriter
+from turtlewire.bag import BagWriter, open_bag
 from turtlewire.bag.recording import Recording
 from turtlewire.errors import BagError
 
@@ -88,3 +88,29 @@ def test_a_full_cache_loses_what_does_not_fit(disk, last, lost):
     disk.is_free.set()
     recording.close()
     assert len(disk.messages) == 3 - len(lost)
+
+
+@pytest.mark.parametrize(
+    ("refused", "why"), [((b"", 2), "not 0 bytes"), ((bytes(8), -2), "no times before 1970")]
+)
+def test_a_message_that_no_bag_can_hold_does_not_end_the_recording(tmp_path, refused, why):
+    recording = Recording(BagWriter(tmp_path / "bag"))
+    recording.add_topic("/a", "std_msgs/msg/String")
+    for data, stamp in ((bytes(8), 1), refused, refused, (bytes(8), 3)):
+        recording.write("/a", data, stamp)
+    recording.close()
+    count, reason = recording.refused["/a"]
+    assert (count, why in reason, recording.failure, recording.lost) == (2, True, None, {})
+    with open_bag(tmp_path / "bag") as bag:
+        assert [message.log_time_ns for message in bag] == [1, 3]
+
+
+@pytest.mark.parametrize("sent_ns", [None, 0, -5, 5])
+def test_a_sender_with_a_wrong_clock_is_recorded(tmp_path, sent_ns):
+    recording = Recording(BagWriter(tmp_path / "bag"))
+    recording.add_topic("/a", "std_msgs/msg/String")
+    recording.write("/a", bytes(8), 7, sent_ns)
+    recording.close()
+    with open_bag(tmp_path / "bag") as bag:
+        (message,) = bag
+    assert message.publish_time_ns == (5 if sent_ns == 5 else 7)

@@ -54,7 +54,8 @@ class Recording:
 
     Attributes:
         failure: Why the bag cannot be written any more; None while all is well.
-        lost: Numbers of lost messages by topic.
+        lost: Numbers of messages by topic that found no room in the cache.
+        refused: Numbers of messages by topic that no bag can hold, and why the first was refused.
 
     Raises:
         BagError: Snapshots without a limit of the cache.
@@ -73,6 +74,7 @@ class Recording:
             raise BagError("snapshots need a limit: cache_bytes or cache_ns must be more than 0")
         self.failure: Exception | None = None
         self.lost: dict[str, int] = {}
+        self.refused: dict[str, tuple[int, str]] = {}
         self._writer = writer
         self._cache_bytes, self._cache_ns = cache_bytes, cache_ns
         self._snapshot = snapshot
@@ -104,10 +106,12 @@ class Recording:
             topic: Name of its topic.
             data: Its CDR bytes.
             log_time_ns: When it was received, nanoseconds since 1970.
-            publish_time_ns: When it was sent; None if it is not known.
+            publish_time_ns: When it was sent; None, or a time before 1970, if it is not known.
         """
         size = len(data)
-        message = (topic, data, log_time_ns, publish_time_ns or log_time_ns)
+        if publish_time_ns is None or publish_time_ns <= 0:
+            publish_time_ns = log_time_ns
+        message = (topic, data, log_time_ns, publish_time_ns)
         with self._changed:
             self._messages += 1
             self._data_bytes += size
@@ -224,13 +228,21 @@ class Recording:
                 if self._snapshot:
                     self._write_again(messages[0][2] if messages else self._last_ns, messages)
                 for message in messages:
-                    self._writer.write(*message)
-                    self._last_ns = message[2]
-                    self._remember(message)
+                    self._write_one(message)
                 self._writer.flush()
             except (OSError, sqlite3.Error) as error:
                 self._fail(error)
         return True
+
+    def _write_one(self, message: _Message) -> None:
+        try:
+            self._writer.write(*message)
+        except (BagError, ValueError) as error:  # empty, or of no time: the others are written
+            count, reason = self.refused.get(message[0], (0, str(error)))
+            self.refused[message[0]] = count + 1, reason
+        else:
+            self._last_ns = message[2]
+            self._remember(message)
 
     def _write_again(self, time_ns: int, following: Sequence[_Message] = ()) -> None:
         """Write the newest messages of the topics to repeat. The caller holds ``_disk``.
