@@ -21,7 +21,8 @@ LATCHED = QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
 
 def written(path, storage, count=1000):
     """A bag without metadata.yaml; returns its file."""
-    with BagWriter(path, storage=storage, chunk_bytes=5000) as writer:
+    kept = {"ros_distro": "jazzy", "custom_data": {"robot": "r1"}}
+    with BagWriter(path, storage=storage, chunk_bytes=5000, **kept) as writer:
         writer.add_topic("/a", "std_msgs/msg/String", qos=[LATCHED])
         for number in range(count):
             writer.write("/a", String(data=f"{number} " + "x" * 50), START + number)
@@ -57,6 +58,7 @@ def test_a_cut_bag_is_made_whole(tmp_path, storage, share):
         assert bag.problems == []
         assert [qos.durability for qos in bag.topics["/a"].qos] == [Durability.TRANSIENT_LOCAL]
         assert "std_msgs/msg/String" in bag.definitions()
+        assert (bag.metadata.ros_distro, bag.metadata.custom_data) == ("jazzy", {"robot": "r1"})
     assert numbers(path) == before
     with Reader(path) as reader:  # the judge: it takes only whole files
         assert len(list(reader.messages())) == len(before)
