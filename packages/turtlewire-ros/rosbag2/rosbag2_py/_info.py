@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+from collections.abc import Iterator
 
 from rosbag2_py._metadata import BagMetadata, info, is_service_event, service_of
 from rosbag2_py._storage import folder_size, from_engine
@@ -50,15 +52,18 @@ def service_counts(bag: Bag) -> dict[str, tuple[int, int]]:
         kinds = [0, 0, 0, 0]
         for message in bag.messages(topic.name):
             # The info field comes first, and its event_type is the first byte behind the header.
-            kinds[message.data[4] & 3] += 1
+            if len(message.data) > 4:
+                kinds[message.data[4] & 3] += 1
         requests = kinds[_REQUEST_SENT] + kinds[_REQUEST_RECEIVED]
         responses = kinds[_RESPONSE_SENT] + kinds[_RESPONSE_RECEIVED]
         counts[service_of(topic.name, topic.type)[0]] = (requests, responses)
     return counts
 
 
-def _opened(uri: str) -> Bag:
+@contextlib.contextmanager
+def _opened(uri: str) -> Iterator[Bag]:
     try:
-        return open_bag(uri)
+        with open_bag(uri) as bag:
+            yield bag
     except (BagError, OSError) as error:
         raise RuntimeError(str(error)) from error

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rosbag2_transport.action_topics import action_topic
 from rosbag2_transport.options import ServiceRequestsSource
 from rosbag2_transport.topic_filter import is_service_event
-from turtlewire.errors import InterfaceError, UncallableServiceError, WireError
+from turtlewire.errors import CdrError, InterfaceError, UncallableServiceError, WireError
 from turtlewire.msg import deserialize, get_message, serialize, type_hash
 from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import Durability, History, Liveliness, QoS, Reliability
@@ -107,7 +107,7 @@ class PlayerOutputs:
             return
         try:
             send(message.upgraded_data())
-        except WireError as error:
+        except (CdrError, WireError) as error:
             if message.topic not in self._refused:
                 self._refused.add(message.topic)
                 self._logger.error(f"A message was not played: {error}")  # noqa: TRY400
@@ -229,7 +229,7 @@ class _ServiceRequests:
 
     def _send(self, client: Client, event_type: str, data: bytes) -> None:
         client.take(1000)  # answers are discarded, because they must not accumulate
-        if data[4] != self._kind:  # the event's kind is its first byte
+        if len(data) > 4 and data[4] != self._kind:  # the event's kind is its first byte
             return
         event = deserialize(get_message(event_type), data)
         requests = event.request  # type: ignore[attr-defined]  # each event type has it

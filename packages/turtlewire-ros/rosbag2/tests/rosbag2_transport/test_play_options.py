@@ -172,6 +172,17 @@ def test_damage_that_a_command_meets_ends_the_playback_with_one_line(bag_verb, t
     assert int(program.wait_for(r"Burst (\d+) messages")[0][1]) > 0
 
 
+def test_malformed_events_are_told_and_not_sent(tmp_path, capfd):
+    with BagWriter(tmp_path / "bag") as writer:
+        writer.add_topic("/add/_service_event", EVENT)
+        for data in (b"\0\1\0\0", b"\0\1\0\0\1\0\0"):
+            writer.append("/add/_service_event", data, START, START)
+    played(tmp_path / "bag", publish_service_requests=True)
+    assert capfd.readouterr().err.count("A message was not played: ") == 1
+    rosbag2_py.Info().read_metadata_and_output_service_verbose(str(tmp_path / "bag"))
+    assert "Request Count: 1 | Response Count: 0" in capfd.readouterr().out
+
+
 def test_a_file_that_is_missing_is_one_error(tmp_path):
     path = events(tmp_path / "bag")
     (path / "bag_0.mcap").unlink()
