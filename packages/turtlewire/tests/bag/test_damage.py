@@ -19,8 +19,9 @@ import pytest
 from tests.bags import START, contents, write_bag
 
 from turtlewire import Buffer
-from turtlewire.bag import BagWriter, open_bag, reindex
+from turtlewire.bag import BagWriter, describe_bag, open_bag, reindex
 from turtlewire.bag.compression import compress, decompress, most_bytes, unpack_file
+from turtlewire.bag.mcap_records import Op
 from turtlewire.errors import BagError
 
 from .conftest import GOLDEN
@@ -428,6 +429,30 @@ def test_a_missing_file_of_messages_is_named_and_the_others_are_read(tmp_path):
         assert len(bag.problems) == 1
     assert "reindex" in error.value.hint
     assert sum(second.name in line for line in Buffer.from_bag(folder).bag_report.problems) == 1
+
+
+@pytest.mark.parametrize("number", [0, 1])
+def test_an_overview_names_a_missing_file_and_measures_the_others(tmp_path, number):
+    folder = write_bag(tmp_path / "made", max_file_bytes=4000, chunk_bytes=500)
+    (folder / f"made_{number}.mcap").unlink()
+    found = describe_bag(folder)
+    assert 50 < next(topic.count for topic in found.topics if topic.name == "/tf") < 100
+    assert sum(f"made_{number}.mcap" in problem for problem in found.problems) == 1
+
+
+def test_a_summary_that_lists_a_chunk_without_bytes_is_not_used(tmp_path):
+    (path,) = write_bag(tmp_path / "made").glob("*.mcap")
+    data = bytearray(path.read_bytes())
+    footer = len(data) - 8 - 29
+    (at,) = struct.unpack_from("<Q", data, footer + 9)
+    while data[at] != Op.CHUNK_INDEX:
+        at += 9 + int.from_bytes(data[at + 1 : at + 9], "little")
+    struct.pack_into("<QQ", data, at + 9 + 16, len(data), 0)
+    struct.pack_into("<I", data, footer + 9 + 16, 0)  # the summary has no checksum
+    path.write_bytes(data)
+    messages, complaint = read_what_there_is(path)
+    assert len(messages) == 111
+    assert "lists a chunk that is empty" in complaint
 
 
 def test_damaged_metadata_in_a_file_costs_no_message(tmp_path):

@@ -14,7 +14,7 @@ from tests.bags import SECOND, START
 from tests.rosbags_messages import as_mcap, random_message, write_ros1
 
 from turtlewire import Buffer
-from turtlewire.bag import copy_bag, open_bag
+from turtlewire.bag import copy_bag, describe_bag, open_bag
 from turtlewire.cli.main import main
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.msg import deserialize, missing_fields, serialize
@@ -350,6 +350,9 @@ def test_compressed_chunks(tmp_path, kind):
     (tmp_path / "packed.bag").write_bytes(damaged)
     with open_bag(tmp_path / "packed.bag") as bag, pytest.raises(BagError, match="chunk at byte"):
         list(bag)
+    found = describe_bag(tmp_path / "packed.bag")
+    assert 0 < found.topics[0].count < 300
+    assert "chunk at byte" in found.problems[0]
 
 
 @pytest.mark.parametrize("words", [("trajectory",), ("compare", "reference.tum")])

@@ -157,12 +157,7 @@ class McapFile:
         Raises:
             BagError: The chunk is damaged; the messages before the damage were yielded.
         """
-        return self.messages_in(self.records(chunk), chunk, wanted)
-
-    def messages_in(
-        self, records: bytes | memoryview, chunk: ChunkIndex, wanted: Container[int] | None = None
-    ) -> Iterator[tuple[int, int, int, bytes]]:
-        """Yield the same of a chunk's records, as `records` returns them."""
+        records = self.records(chunk)
         position, end = 0, len(records)
         while position < end:
             found: list[RawMessage] = []
@@ -244,8 +239,8 @@ class McapFile:
             self._read_definition(opcode, content)
         elif opcode == Op.CHUNK_INDEX:
             chunk = RecordReader(content).chunk_index()
-            if chunk.offset + chunk.length > len(self._bytes):
-                raise BagError("it lists a chunk after the end of the file")
+            if not chunk.length or chunk.offset + chunk.length > len(self._bytes):
+                raise BagError("it lists a chunk that is empty or after the end of the file")
             self.chunks.append(chunk)
         elif opcode == Op.STATISTICS:
             self.statistics = RecordReader(content).statistics()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.mcap_reader import McapFile
@@ -12,14 +11,20 @@ from turtlewire.bag.message import BagChannel, channel_of_text
 from turtlewire.bag.metadata import BagMetadata, TopicInfo, full_type_name, parse_metadata
 from turtlewire.bag.qos_yaml import load_yaml, profiles_from_yaml
 from turtlewire.bag.ros1_messages import Ros1Messages, converted_blocks
-from turtlewire.bag.storage import Extent, add_extent, class_of_channel, extents_of_chunk, in_order
+from turtlewire.bag.storage import (
+    add_extent,
+    add_messages,
+    class_of_channel,
+    extents_of_chunk,
+    in_order,
+)
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from turtlewire.bag.mcap_records import ChunkIndex
     from turtlewire.bag.message import BagMessage
     from turtlewire.bag.record_messages import RawMessage
-    from turtlewire.bag.storage import TransformTarget
+    from turtlewire.bag.storage import Extent, TransformTarget
 
 __all__ = ["McapStorage"]
 
@@ -259,17 +264,13 @@ class McapStorage:
         found: dict[str, Extent] = {}
         for chunk in self.file.chunks:
             raw = self.file.raw_chunk(chunk)
-            if raw is not None:
-                extents = extents_of_chunk(raw)
-            else:
-                own: dict[str, Extent] = {}
-                with suppress(BagError):  # it is among the problems
-                    for log_time, number, _, data in self.file.messages(chunk):
-                        add_extent(own, str(number), Extent(1, len(data), log_time, log_time))
-                extents = {int(number): extent for number, extent in own.items()}
+            if raw is None:
+                messages = self.file.messages(chunk)
+                add_messages(found, messages, lambda each: self.topic(each).name, self.problems)
                 self.file.forget(chunk)
-            for number, extent in extents.items():
-                add_extent(found, self.topic(number).name, extent)
+            else:
+                for number, extent in extents_of_chunk(raw).items():
+                    add_extent(found, self.topic(number).name, extent)
         return found
 
     def counted_messages(self) -> int | None:

@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.latched import is_latched
+from turtlewire.bag.mcap_storage import McapStorage
 from turtlewire.bag.reader import open_bag
-from turtlewire.errors import BagError
+from turtlewire.bag.storage import add_extent
 
 if TYPE_CHECKING:
     from turtlewire.bag.metadata import TopicInfo
-    from turtlewire.bag.reader import Bag
+    from turtlewire.bag.storage import Extent, StorageFile
 
 __all__ = ["BagOverview", "TopicOverview", "describe_bag"]
 
@@ -87,17 +88,19 @@ def describe_bag(path: str | os.PathLike[str]) -> BagOverview:
         BagError: ``path`` is not a bag.
     """
     with open_bag(path) as bag:
-        definitions = bag.definitions() if bag.metadata.paths else {}
-        topics = {topic.name: _described(topic, definitions) for topic in bag.metadata.topics}
-        damage: list[str] = []
-        _measure(bag, topics, damage)
         metadata = bag.metadata
+        files = bag.readable_files(metadata.paths, [])
+        definitions: dict[str, tuple[str, str]] = {}
+        for file in files:
+            definitions |= file.definitions()
+        topics = {topic.name: _described(topic, definitions) for topic in metadata.topics}
+        _measure(files, topics)
         folder = bag.path if os.path.isdir(bag.path) else os.path.dirname(bag.path)
         sizes = [_size(os.path.join(folder, name)) for name in metadata.paths]
         return BagOverview(
             bag.path,
             metadata.storage,
-            metadata.compression_format or _chunk_compression(bag),
+            metadata.compression_format or _chunk_compression(files),
             metadata.ros_distro,
             metadata.paths,
             sum(sizes),
@@ -105,7 +108,9 @@ def describe_bag(path: str | os.PathLike[str]) -> BagOverview:
             metadata.duration_ns,
             metadata.message_count,
             sorted(topics.values(), key=lambda topic: (-topic.data_bytes, topic.name)),
-            list(dict.fromkeys([*bag.problems, *damage])),
+            list(
+                dict.fromkeys([*bag.problems, *(text for file in files for text in file.problems)])
+            ),
         )
 
 
@@ -121,29 +126,23 @@ def _described(topic: TopicInfo, definitions: dict[str, tuple[str, str]]) -> Top
     )
 
 
-def _measure(bag: Bag, topics: dict[str, TopicOverview], damage: list[str]) -> None:
+def _measure(files: list[StorageFile], topics: dict[str, TopicOverview]) -> None:
     """Fill in counts, sizes and rates."""
-    times: dict[str, tuple[int, int]] = {}
-    try:
-        for file in bag.files():
-            for name, (count, size, first, last) in file.extents().items():
-                topic = topics.get(name)
-                if topic is None or not count:
-                    continue
-                topic.count += count
-                topic.data_bytes += size
-                known = times.get(name, (first, last))
-                times[name] = min(known[0], first), max(known[1], last)
-    except (BagError, OSError) as error:
-        damage.append(str(error))
-    for name, (first, last) in times.items():
+    extents: dict[str, Extent] = {}
+    for file in files:
+        for name, extent in file.extents().items():
+            add_extent(extents, name, extent)
+    for name in extents.keys() & topics.keys():
+        topic, (count, size, first, last) = topics[name], extents[name]
+        topic.count, topic.data_bytes = count, size
         if last > first:
-            topics[name].rate_hz = (topics[name].count - 1) / ((last - first) * 1e-9)
+            topic.rate_hz = (count - 1) / ((last - first) * 1e-9)
 
 
-def _chunk_compression(bag: Bag) -> str:
-    for file in bag.readable_files(bag.metadata.paths[:1], []):
-        return str(getattr(getattr(file, "file", None), "compression", ""))
+def _chunk_compression(files: list[StorageFile]) -> str:
+    for file in files:
+        if isinstance(file, McapStorage):
+            return file.file.compression
     return ""
 
 

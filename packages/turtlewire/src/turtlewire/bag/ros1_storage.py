@@ -9,7 +9,7 @@ from turtlewire.bag.message import channel_of_text
 from turtlewire.bag.metadata import BagMetadata, TopicInfo
 from turtlewire.bag.ros1_file import Ros1File
 from turtlewire.bag.ros1_messages import Ros1Messages, converted_blocks
-from turtlewire.bag.storage import extents_of_messages, in_order
+from turtlewire.bag.storage import add_messages, in_order
 from turtlewire.errors import BagError
 from turtlewire.wire.qos import Durability, QoS
 
@@ -99,12 +99,13 @@ class Ros1Storage:
 
     def extents(self) -> dict[str, Extent]:
         """Return counts, sizes and times; the sizes count the bytes of ROS 1."""
+        extents: dict[str, Extent] = {}
         connections = self.file.connections
-        return extents_of_messages(
-            (connections[number].topic, log_time, len(data))
-            for chunk in self.file.chunks
-            for log_time, number, _, data in self.file.messages(chunk, connections)
-        )
+        for chunk in self.file.chunks:
+            messages = self.file.messages(chunk, connections)
+            add_messages(extents, messages, lambda number: connections[number].topic, self.problems)
+            self.file.forget(chunk)
+        return extents
 
     def walk_transforms(
         self, _names: object, _start_ns: int, _end_ns: int, _target: object

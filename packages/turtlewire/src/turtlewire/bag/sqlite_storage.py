@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Container, Iterator
 from contextlib import suppress
 from dataclasses import replace
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import ZSTD_MAGIC
 from turtlewire.bag.message import channel_of_text
 from turtlewire.bag.metadata import BagMetadata, TopicInfo
 from turtlewire.bag.sqlite_reader import SqliteFile
-from turtlewire.bag.storage import class_of_channel, extents_of_messages
+from turtlewire.bag.storage import add_messages, class_of_channel
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -79,12 +80,11 @@ class SqliteStorage:
 
     def extents(self) -> dict[str, Extent]:
         """Return counts, sizes and times; sizes of single compressed messages are compressed."""
+        extents: dict[str, Extent] = {}
         topics = self.file.topics
-        return extents_of_messages(
-            (topics[number].name, log_time, len(data))
-            for block in self.file.blocks(topics, 0, (1 << 64) - 1)
-            for log_time, number, _, data in block
-        )
+        messages = chain.from_iterable(self.file.blocks(topics, 0, (1 << 64) - 1))
+        add_messages(extents, messages, lambda number: topics[number].name, self.problems)
+        return extents
 
     def walk_transforms(
         self, _names: Container[str], _start_ns: int, _end_ns: int, _target: TransformTarget

@@ -9,22 +9,22 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from turtlewire.bag.message import UndecodableType, channel_of, message_class
 from turtlewire.bag.written_types import written_type
+from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from turtlewire.bag.mcap_records import ChunkIndex, RawChunk
     from turtlewire.bag.message import BagChannel, BagMessage
     from turtlewire.bag.metadata import BagMetadata, TopicInfo
     from turtlewire.bag.record_messages import LoggedBytes, RawMessage
-    from turtlewire.errors import BagError
 
 __all__ = [
     "Extent",
     "StorageFile",
     "TransformTarget",
     "add_extent",
+    "add_messages",
     "class_of_channel",
     "extents_of_chunk",
-    "extents_of_messages",
     "in_order",
     "messages_of_blocks",
 ]
@@ -64,12 +64,25 @@ def add_extent(extents: dict[str, Extent], topic: str, extent: Extent) -> None:
     extents[topic] = extent
 
 
-def extents_of_messages(messages: Iterable[tuple[str, int, int]]) -> dict[str, Extent]:
-    """Return the extent of each topic from topics, log times and sizes of messages."""
-    extents: dict[str, Extent] = {}
-    for topic, time_ns, size in messages:
-        add_extent(extents, topic, Extent(1, size, time_ns, time_ns))
-    return extents
+def add_messages(
+    extents: dict[str, Extent],
+    messages: Iterable[RawMessage],
+    name: Callable[[int], str],
+    problems: list[str],
+) -> None:
+    """Add messages one by one to the extents of their topics.
+
+    Args:
+        extents: The extents by topic.
+        messages: They may end with a `BagError`, which is added to the ``problems``.
+        name: Returns the topic of a channel.
+        problems: What is damaged.
+    """
+    try:
+        for log_time, number, _, data in messages:
+            add_extent(extents, name(number), Extent(1, len(data), log_time, log_time))
+    except BagError as error:
+        problems.append(str(error))
 
 
 def extents_of_chunk(chunk: RawChunk) -> dict[int, Extent]:
@@ -194,10 +207,9 @@ class StorageFile(Protocol):
         """
 
     def extents(self) -> dict[str, Extent]:
-        """Return counts, sizes and times of the messages of each topic.
+        """Return counts, sizes and times of the readable messages of each topic.
 
-        Raises:
-            BagError: The file is damaged.
+        What is damaged is added to ``problems``.
         """
 
     def walk_transforms(
