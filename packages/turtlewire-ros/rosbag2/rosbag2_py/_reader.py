@@ -23,7 +23,7 @@ from rosbag2_py._storage import (
     topic_of,
 )
 from turtlewire.bag import Bag, open_bag
-from turtlewire.bag.encodings import not_in_cdr
+from turtlewire.bag.metadata import not_in_cdr
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from rclpy.logging import get_logger
 from rosbag2_transport.progress import ProgressLine, time_text
 from rosbag2_transport.topic_filter import TopicFilter
-from turtlewire.bag.encodings import is_decodable, not_in_cdr
+from turtlewire.bag.metadata import is_decodable, not_in_cdr
 from turtlewire.terminal.printable import printable
 from turtlewire.terminal.suggestion import did_you_mean
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from contextlib import closing
 
 from turtlewire.bag import open_bag
-from turtlewire.bag.encodings import is_decodable, not_in_cdr
+from turtlewire.bag.metadata import is_decodable, not_in_cdr
 from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer

@@ -24,8 +24,7 @@ from rosbag2_transport.play_filter import mistakes, played_topics
 from turtlewire import msg
 from turtlewire.bag import open_bag
 from turtlewire.bag.definitions import has_interface
-from turtlewire.bag.encodings import is_cdr, not_in_cdr
-from turtlewire.bag.metadata import TopicInfo
+from turtlewire.bag.metadata import TopicInfo, is_cdr, not_in_cdr
 from turtlewire.cli.main import main
 from turtlewire.errors import BagError, CdrError, InterfaceError
 from turtlewire_view.bag_source import BagSource

@@ -12,8 +12,8 @@ from tests.rosbags_messages import random_message, write_ros1
 
 from turtlewire.bag.record_messages import plain_mcap_messages, plain_ros1_messages
 from turtlewire.bag.ros1_file import Ros1File
-from turtlewire.bag.ros1_messages import Ros1Messages
 from turtlewire.bag.ros1_steps import conversion_steps
+from turtlewire.bag.ros1_storage import Ros1Messages
 from turtlewire.errors import CdrError
 
 native = pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)

@@ -41,7 +41,7 @@ def main(args: argparse.Namespace) -> None:
 def _tell_of_other_encodings(path: str) -> None:
     from ros2cli.output import tell
     from turtlewire.bag import open_bag
-    from turtlewire.bag.encodings import not_in_cdr
+    from turtlewire.bag.metadata import not_in_cdr
 
     with open_bag(path) as bag:
         if foreign := not_in_cdr(bag.topics.values()):

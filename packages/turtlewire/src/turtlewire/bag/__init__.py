@@ -33,7 +33,6 @@ module              contents
 `frame_renaming`    finds the fields that name frames, and renames the frames
 `message`           `BagMessage` and its channel, a topic with one definition of its type
 `written_types`     types as a bag defines them, ROS 1 too; converts their messages to ours
-`encodings`         topics whose messages are not in CDR
 `files`             the files of a bag: kinds, names, order and common metadata
 `playback`          `PlayClock`, `ReadAhead`: the time of a playback, and due messages
 `writer`            `BagWriter`
@@ -43,18 +42,16 @@ module              contents
 `mcap_storage`      that interface for MCAP files
 `sqlite_storage`    that interface for sqlite3 files
 `mcap_reader`       the MCAP format: summary, chunks, files without a summary
-`chunk_walk`        prepares the next chunk of an MCAP file in advance
 `record_messages`   the messages among the records of a chunk
 `mcap_records`      the records of MCAP as bytes and objects
 `mcap_writer`       writes MCAP files
 `sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4; the rows of its messages, natively
-`ros1_storage`      that interface for bags of ROS 1
+`ros1_storage`      that interface for bags of ROS 1; converts their messages to CDR
 `ros1_file`         the format of ROS 1's bags: connections, chunks, bags without an end
-`ros1_messages`     converts messages of ROS 1 to CDR
 `ros1_steps`        the steps of that conversion, for the compiled core
 `repair`            `reindex`: repairs a damaged file, or the folder of a recorder that was cut off
 `sqlite_writer`     writes sqlite3 files
-`metadata`          ``metadata.yaml``, versions 1 to 9
+`metadata`          ``metadata.yaml``, versions 1 to 9; topics that are not in CDR
 `qos_yaml`          the QoS of recorded topics as YAML
 `definitions`       message definitions in the format of bags
 `compression`       zstd and lz4, with limits; files and messages compressed as a whole

@@ -16,6 +16,7 @@ from turtlewire.bag.column_fields import (
     read_texts,
 )
 from turtlewire.bag.message import UndecodableType
+from turtlewire.bag.metadata import is_cdr, is_decodable
 from turtlewire.bag.sensor_arrays import cloud_array, cloud_dtype, image_array, read_point_fields
 from turtlewire.bag.written_types import written_type
 from turtlewire.errors import BagError
@@ -136,9 +137,9 @@ def read_columns(
 ) -> Columns:
     """Read fields of a topic's messages; see `Bag.columns`."""
     known = bag.topics[topic]
-    type_name, encoding = known.type, known.serialization_format
-    if encoding not in ("cdr", "") or not type_name:
-        UndecodableType(topic, type_name, encoding).decode(b"")
+    type_name = known.type
+    if not is_decodable(known):
+        UndecodableType(topic, type_name, known.serialization_format).decode(b"")
     if not paths:
         names = ", ".join(field.name for field in load_message(type_name).fields)
         raise ValueError(f"name at least one field of {topic}; {type_name} has {names or 'none'}")
@@ -207,7 +208,7 @@ def _native_reader() -> Any:
 def _has_our_fields(channel: BagChannel, type_name: str) -> bool:
     """Return True if the messages of a channel surely have the fields that ours have."""
     topic, schema = channel.topic, channel.schema
-    if topic.serialization_format not in ("cdr", "") or topic.type != type_name:
+    if not is_cdr(topic) or topic.type != type_name:
         return False
     if not schema.data:
         return older_evolution(topic.type) is None

@@ -6,10 +6,9 @@ import heapq
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire.bag.chunk_walk import one_ahead
 from turtlewire.bag.mcap_records import OPCODE_AND_LENGTH, ChunkIndex, Op
 from turtlewire.bag.mcap_storage import McapStorage
-from turtlewire.bag.storage import messages_of_blocks
+from turtlewire.bag.storage import messages_of_blocks, one_ahead
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.bag.definitions import parse_definition
-from turtlewire.bag.encodings import is_decodable
 from turtlewire.bag.message import channel_of
+from turtlewire.bag.metadata import is_decodable
 from turtlewire.errors import BagError, CdrError, InterfaceError
 from turtlewire.msg.types import AbstractNestedType, AbstractString, NamespacedType
 from turtlewire.msg.written_records import WrittenRecords

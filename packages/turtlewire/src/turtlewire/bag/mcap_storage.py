@@ -10,13 +10,14 @@ from turtlewire.bag.mcap_records import Schema
 from turtlewire.bag.message import BagChannel, channel_of_text
 from turtlewire.bag.metadata import BagMetadata, TopicInfo, full_type_name, parse_metadata
 from turtlewire.bag.qos_yaml import load_yaml, profiles_from_yaml
-from turtlewire.bag.ros1_messages import Ros1Messages, converted_blocks
+from turtlewire.bag.ros1_storage import Ros1Messages, converted_blocks
 from turtlewire.bag.storage import (
     add_extent,
     add_messages,
     class_of_channel,
     extents_of_chunk,
     in_order,
+    one_ahead,
 )
 from turtlewire.errors import BagError
 
@@ -231,8 +232,6 @@ class McapStorage:
         self, names: Container[str], start_ns: int, end_ns: int, target: TransformTarget
     ) -> bool:
         """Pass the records to ``target``, each chunk decompressed while the last is taken."""
-        from turtlewire.bag.chunk_walk import decompressed  # its threads take 10 ms to import
-
         topics = {
             number: topic.name
             for number in self.file.channels
@@ -244,7 +243,14 @@ class McapStorage:
         total, done = sum(chunk.length for chunk in chunks) or 1, 0
         expected = target.messages + self.expected_count(topics, start_ns, end_ns)
         known_problems = len(target.problems)
-        for chunk, records in decompressed(self.file, chunks):
+
+        def load(chunk: ChunkIndex) -> bytes | memoryview | BagError:
+            try:
+                return self.file.records(chunk)
+            except BagError as error:
+                return error
+
+        for chunk, records in one_ahead(chunks, load):
             if isinstance(records, BagError):
                 target.complain(str(records))
             else:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,7 @@ from turtlewire.bag.qos_yaml import (
     qos_to_yaml,
 )
 from turtlewire.errors import BagError
+from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
     from turtlewire.wire.qos import QoS
@@ -33,6 +35,9 @@ __all__ = [
     "TopicInfo",
     "dump_metadata",
     "full_type_name",
+    "is_cdr",
+    "is_decodable",
+    "not_in_cdr",
     "parse_metadata",
     "read_metadata",
     "write_metadata",
@@ -54,6 +59,7 @@ _SINCE = {
 }
 #: The start time that rosbag2 writes while there are no messages.
 _UNKNOWN_START = (1 << 63) - 1
+_MOST_NAMES = 10
 
 
 class _Dumper(getattr(yaml, "CSafeDumper", yaml.SafeDumper)):  # type: ignore[misc]
@@ -82,7 +88,7 @@ class TopicInfo:
     message_count: int = 0
 
     def __post_init__(self) -> None:
-        if self.serialization_format in ("cdr", ""):
+        if is_cdr(self):
             self.type = full_type_name(self.type)
 
 
@@ -133,6 +139,47 @@ class BagMetadata:
 def full_type_name(name: str) -> str:
     """Return the full name of a message: ``geometry_msgs/Point`` is ``geometry_msgs/msg/Point``."""
     return name.replace("/", "/msg/") if name.count("/") == 1 else name
+
+
+def is_cdr(topic: TopicInfo) -> bool:
+    """Return whether messages of a topic are in CDR; an encoding without a name counts."""
+    return topic.serialization_format in ("cdr", "")
+
+
+def is_decodable(topic: TopicInfo) -> bool:
+    """Return whether messages of a topic are in CDR and of a type that the bag names."""
+    return is_cdr(topic) and bool(topic.type)
+
+
+def not_in_cdr(topics: Iterable[TopicInfo], consequence: str = "neither decoded nor shown") -> str:
+    """Name the topics that cannot be decoded, with encoding and type; empty if all can.
+
+    Args:
+        topics: The topics, of which some may be decodable.
+        consequence: What does not happen to the messages of the others.
+    """
+    others = sorted((each for each in topics if not is_decodable(each)), key=lambda each: each.name)
+    foreign = [
+        f"{each.name} ({each.serialization_format} {each.type})"
+        for each in others
+        if not is_cdr(each)
+    ]
+    nameless = [each.name for each in others if is_cdr(each)]
+    sentences = []
+    if foreign:
+        sentences.append(
+            f"Not in ROS 2's encoding, CDR, and therefore {consequence}: {_listed(foreign)}."
+        )
+    if nameless:
+        sentences.append(
+            f"Without a type in the bag, and therefore {consequence}: {_listed(nameless)}."
+        )
+    return printable(" ".join(sentences))
+
+
+def _listed(names: list[str]) -> str:
+    rest = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
+    return f"{', '.join(names[:_MOST_NAMES])}{rest}"
 
 
 def read_metadata(folder: str) -> BagMetadata | None:

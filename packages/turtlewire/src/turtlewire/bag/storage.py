@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Callable, Container, Iterable, Iterator
+from itertools import islice
 from operator import itemgetter
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
 from turtlewire.bag.message import UndecodableType, channel_of, message_class
+from turtlewire.bag.metadata import is_decodable
 from turtlewire.bag.written_types import written_type
 from turtlewire.errors import BagError
 
@@ -27,7 +29,11 @@ __all__ = [
     "extents_of_chunk",
     "in_order",
     "messages_of_blocks",
+    "one_ahead",
 ]
+
+_Item = TypeVar("_Item")
+_Result = TypeVar("_Result")
 
 #: Opcode, length and fields of a message before its bytes.
 _MESSAGE_HEAD = 31
@@ -248,11 +254,26 @@ def messages_of_blocks(
 def class_of_channel(channel: BagChannel) -> type[BagMessage]:
     """Return the class of a channel's messages, which decodes them by the definition in the bag."""
     topic, schema = channel.topic, channel.schema
-    if topic.serialization_format not in ("cdr", "") or not topic.type:
+    if not is_decodable(topic):
         undecodable = UndecodableType(topic.name, topic.type, topic.serialization_format)
         return message_class(undecodable, channel)
     text = schema.data.decode("utf-8", "replace")
     return message_class(written_type(topic.type, schema.encoding, text), channel)
+
+
+def one_ahead(
+    items: Iterable[_Item], prepare: Callable[[_Item], _Result]
+) -> Iterator[tuple[_Item, _Result]]:
+    """Yield each item with the result of ``prepare``, which another thread calls one item ahead."""
+    from concurrent.futures import ThreadPoolExecutor  # it takes 10 ms to import
+
+    with ThreadPoolExecutor(1, "bag") as thread:
+        following = iter(items)
+        ahead = [(item, thread.submit(prepare, item)) for item in islice(following, 1)]
+        while ahead:
+            item, current = ahead.pop()
+            ahead += [(item, thread.submit(prepare, item)) for item in islice(following, 1)]
+            yield item, current.result()
 
 
 def in_order(

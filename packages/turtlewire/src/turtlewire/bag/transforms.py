@@ -14,8 +14,8 @@ from contextlib import nullcontext
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from turtlewire.bag.encodings import is_cdr, not_in_cdr
 from turtlewire.bag.message_choice import check_unit, window
+from turtlewire.bag.metadata import is_cdr, not_in_cdr
 from turtlewire.bag.progress import progress_line
 from turtlewire.bag.reader import Bag
 from turtlewire.bag.trajectories import pose_topics

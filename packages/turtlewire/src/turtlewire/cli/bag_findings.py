@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from turtlewire.bag import open_bag
-from turtlewire.bag.encodings import not_in_cdr
+from turtlewire.bag.metadata import not_in_cdr
 from turtlewire.bag.transforms import fill_buffer
 from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.doctor.tf_findings import recorded_findings
