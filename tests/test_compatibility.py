@@ -45,7 +45,7 @@ the router listens on all interfaces
 an extension of another package may replace an extension of ROS 2 with the same name
   ros2cli/test_extensions_of_others.py test_a_verb_is_added_and_none_is_replaced
 Ctrl-C in `ros2 bag convert` leaves a bag that looks complete
-  rosbag2_transport/test_rewrite.py test_an_interrupted_conversion_says_so_and_leaves_no_half_bag
+  rosbag2_py/test_converting.py test_an_interrupted_conversion_says_so_and_leaves_no_half_bag
 interfaces, from Jazzy on
   msg/test_distro_interfaces.py test_names_and_hashes_are_those_of_the_distribution test_interfaces_of_other_distributions_can_be_loaded
 TF, from Kilted on

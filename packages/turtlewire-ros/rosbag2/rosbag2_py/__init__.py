@@ -1,19 +1,18 @@
 """rosbag2's Python interface, on turtlewire's bags.
 
-==================================  ================================================
+==================================  ============================================================
 module                              contents
-==================================  ================================================
-`_reader`, `_writer`                readers and writers, message by message
+==================================  ============================================================
+`_reader`, `_writer`                readers and writers, message by message; presets of storages
 `_info`                             reads metadata; counts requests and responses
 `_recorder`, `_player`              recording and playing as scripts start it
 `_rewrite`                          converting bags as a YAML file asks
 `_transport`                        these three modules under the name that scripts import
-`_open_writer`                      a bag to write, by storage options
 `_metadata`                         `BagMetadata`, and the text of ``ros2 bag info``
 `_storage`, `_compression_options`  options; the engine's types translated
 `_reindexer`                        rebuilds ``metadata.yaml``
 `_message_definitions`              definitions of types from this installation
-==================================  ================================================
+==================================  ============================================================
 """
 
 from __future__ import annotations

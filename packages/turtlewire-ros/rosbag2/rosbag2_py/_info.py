@@ -6,8 +6,9 @@ import contextlib
 import os
 from collections.abc import Iterator
 
-from rosbag2_py._metadata import BagMetadata, info, is_service_event, service_of
+from rosbag2_py._metadata import BagMetadata, info
 from rosbag2_py._storage import folder_size, from_engine
+from rosbag2_transport.topic_filter import is_service_event, service_of
 from turtlewire.bag import Bag, open_bag
 from turtlewire.errors import BagError
 

@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING
 
 from rclpy.duration import Duration
 from rclpy.time import Time
-from rosbag2_transport.action_topics import ACTION_PARTS, ActionTopic, action_topic
+from rosbag2_transport.topic_filter import (
+    ACTION_PARTS,
+    ActionTopic,
+    action_topic,
+    is_service_event,
+    service_of,
+)
 from turtlewire.bag import metadata as engine
 from turtlewire.bag.times import size_text
 from turtlewire.distro import KILTED, since
@@ -19,7 +25,6 @@ if TYPE_CHECKING:
 
     from rclpy.qos import QoSProfile
 
-_EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
 _LABEL_WIDTH, _SERVICE_WIDTH = 19, 21
 
 
@@ -211,13 +216,3 @@ def _date(nanoseconds: int) -> str:
 def action_of(topic: str, type_name: str) -> ActionTopic | None:
     """Return the action of a topic and its part; None for other topics, and up to Jazzy."""
     return action_topic(topic, type_name) if since(KILTED) else None
-
-
-def is_service_event(topic: str, type_name: str) -> bool:
-    """Return True if a topic carries the introspection events of a service."""
-    return topic.endswith(_EVENT_TOPIC) and type_name.endswith(_EVENT_TYPE)
-
-
-def service_of(topic: str, type_name: str) -> tuple[str, str]:
-    """Return the name and type of the service whose events a topic carries."""
-    return topic.removesuffix(_EVENT_TOPIC), type_name.removesuffix(_EVENT_TYPE)

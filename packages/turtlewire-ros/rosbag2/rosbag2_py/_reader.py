@@ -9,7 +9,6 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from rclpy.logging import get_logger
-from rosbag2_py._metadata import is_service_event
 from rosbag2_py._storage import (
     ConverterOptions,
     MessageDefinition,
@@ -22,6 +21,7 @@ from rosbag2_py._storage import (
     from_engine,
     topic_of,
 )
+from rosbag2_transport.topic_filter import is_service_event
 from turtlewire.bag import Bag, open_bag
 from turtlewire.bag.metadata import not_in_cdr
 from turtlewire.errors import BagError

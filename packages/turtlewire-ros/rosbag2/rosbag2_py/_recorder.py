@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from rclpy.logging import get_logging_severity_from_string, set_logger_level
 from rosbag2_py._compression_options import CompressionMode, compression_mode_from_string
-from rosbag2_py._open_writer import make_writer
-from rosbag2_py._writer import get_registered_compressors
+from rosbag2_py._writer import get_registered_compressors, make_writer
 from rosbag2_transport.options import RecordOptions
 from rosbag2_transport.record import record
 

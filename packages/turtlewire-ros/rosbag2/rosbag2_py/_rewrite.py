@@ -10,9 +10,9 @@ from dataclasses import fields
 from datetime import timedelta
 from typing import Any
 
-from rosbag2_py._open_writer import make_writer
 from rosbag2_py._recorder import compression_mode_of
 from rosbag2_py._storage import StorageOptions
+from rosbag2_py._writer import make_writer
 from rosbag2_transport.options import RecordOptions
 from rosbag2_transport.qos_overrides import qos_profile
 from rosbag2_transport.rewrite import Output, rewrite

@@ -12,16 +12,12 @@ module                 contents
 `recorder_services`    services and topic of a recorder
 `recorder_notices`     reports requested topics that do not exist
 `recorder_qos`         which QoS receives from all publishers of a topic
-`topic_filter`         which topics are recorded or converted
-`action_topics`        which topics belong to an action
-`static_topics`        topics that are recorded from the start
+`topic_filter`         which topics are recorded or converted, and which belong to an action
 `player`               `Player`: time, order, and what pauses, seeks or ends it
-`played_bags`          the bags, as if they were one
+`played_bags`          the bags, as if they were one; what is latched where a playback begins
 `player_outputs`       its publishers, their QoS, and recorded requests
-`player_clock`         ``/clock``
-`player_services`      services and topic of a player
+`player_services`      services, topic and ``/clock`` of a player
 `play_filter`          which topics are played
-`latched`              latched messages wherever a playback begins
 `rewrite`              converts bags
 `qos_overrides`        QoS profiles from a file
 `session`              common parts: context, node, terminal, signals

@@ -9,8 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from rosbag2_transport.player import BagPlayer
-from rosbag2_transport.player_clock import ClockPublisher
-from rosbag2_transport.player_services import PlayerServices
+from rosbag2_transport.player_services import ClockPublisher, PlayerServices
 from rosbag2_transport.progress import ProgressLine, time_text
 from rosbag2_transport.session import BagSession, handle_keys, stopped_by_signals
 from turtlewire.errors import BagError

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from rosbag2_transport.action_topics import action_topic
-from rosbag2_transport.topic_filter import EVENT_TOPIC, is_service_event, pattern
+from rosbag2_transport.topic_filter import EVENT_TOPIC, action_topic, is_service_event, pattern
 from turtlewire.bag.metadata import is_decodable, not_in_cdr
 from turtlewire.distro import KILTED, since
 from turtlewire.terminal.suggestion import did_you_mean

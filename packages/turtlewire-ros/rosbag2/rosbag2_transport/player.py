@@ -13,10 +13,9 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from rosbag2_transport.latched import Latched
 from rosbag2_transport.options import MessageOrder
 from rosbag2_transport.play_filter import mistakes, played_topics
-from rosbag2_transport.played_bags import PlayedBags
+from rosbag2_transport.played_bags import Latched, PlayedBags
 from rosbag2_transport.player_outputs import PlayerOutputs
 from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError

@@ -6,9 +6,8 @@ import time
 from collections.abc import Callable, Container, Iterable
 from typing import TYPE_CHECKING
 
-from rosbag2_transport.action_topics import action_topic
 from rosbag2_transport.options import ServiceRequestsSource
-from rosbag2_transport.topic_filter import is_service_event
+from rosbag2_transport.topic_filter import action_topic, is_service_event
 from turtlewire.errors import CdrError, InterfaceError, UncallableServiceError, WireError
 from turtlewire.msg import deserialize, get_message, serialize, type_hash
 from turtlewire.wire.base import ServiceTypes, TypeId

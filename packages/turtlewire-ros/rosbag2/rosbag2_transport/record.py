@@ -1,4 +1,4 @@
-"""One recording from beginning to end."""
+"""One recording from beginning to end, and the file of topics that it does not wait for."""
 
 from __future__ import annotations
 
@@ -14,20 +14,31 @@ from rosbag2_transport.progress import ProgressLine, time_text
 from rosbag2_transport.recorder import BagRecorder
 from rosbag2_transport.recorder_services import RecorderServices
 from rosbag2_transport.session import BagSession, handle_keys, stopped_by_signals
-from rosbag2_transport.static_topics import read_static_topics
 from rosbag2_transport.topic_filter import EVENT_TOPIC, check_patterns
 from turtlewire.bag.metadata import METADATA_FILE
+from turtlewire.bag.qos_yaml import load_yaml
 from turtlewire.bag.recording import Recording
 from turtlewire.bag.times import size_text
 from turtlewire.distro import LYRICAL, since
+from turtlewire.errors import BagError
 from turtlewire.terminal.printable import printable
-from turtlewire.wire.names import validate_node_name, validate_topic_name
+from turtlewire.wire.names import (
+    validate_full_topic_name,
+    validate_node_name,
+    validate_topic_name,
+)
 
 if TYPE_CHECKING:
     import queue
 
     from rosbag2_transport.options import RecordOptions
     from turtlewire.bag.writer import BagWriter
+
+_STATIC_TOPICS = "static_topics_and_types_list"
+_STATIC_EXAMPLE = f"""
+Such a file is, for example:
+{_STATIC_TOPICS}:
+- [/chatter, std_msgs/msg/String]"""
 
 
 def record(
@@ -88,6 +99,34 @@ def record(
         writer.on_split = lambda closed, opened: _split(services, closed, opened)
         writer.on_compress = _say_that_it_compresses
         _run(session, recorder, recording, options, stop, on_start)
+
+
+def read_static_topics(path: str) -> dict[str, str]:
+    """Return the types by topic of those that are subscribed to before they have a publisher.
+
+    Raises:
+        RuntimeError: The file cannot be read, or does not hold such a list.
+    """
+    try:
+        with open(path, encoding="utf-8") as file:
+            content = load_yaml(file.read(), path)
+    except (BagError, OSError, UnicodeDecodeError) as error:
+        raise RuntimeError(f"cannot read the topics in {path}: {error}") from error
+    pairs = content.get(_STATIC_TOPICS) if isinstance(content, dict) else None
+    if not isinstance(pairs, list):
+        raise RuntimeError(  # noqa: TRY004 - the file is wrong, not the call
+            f"{path}: the key '{_STATIC_TOPICS}' with a list is missing.{_STATIC_EXAMPLE}"
+        )
+    found: dict[str, str] = {}
+    for pair in pairs:
+        words = [word for word in pair if isinstance(word, str)] if isinstance(pair, list) else []
+        if len(words) != 2 or len(pair) != 2:
+            raise RuntimeError(f"{path}: {pair!r} is not a topic and its type.{_STATIC_EXAMPLE}")
+        topic, type_name = words
+        if fault := validate_full_topic_name(topic):
+            raise RuntimeError(f"{path}: '{topic}' cannot be the name of a topic: {fault.message}")
+        found[topic] = type_name
+    return found
 
 
 def _check_names(options: RecordOptions) -> None:

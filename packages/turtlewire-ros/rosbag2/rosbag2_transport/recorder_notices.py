@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from rosbag2_transport.action_topics import action_topic
-from rosbag2_transport.topic_filter import EVENT_TOPIC, pattern
+from rosbag2_transport.topic_filter import EVENT_TOPIC, action_topic, pattern
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.wire.names import is_hidden
 

@@ -1,28 +1,87 @@
-"""Chooses the topics of the graph that are recorded."""
+"""Chooses the topics of the graph that are recorded; knows those of actions and services.
+
+An action has five topics in a bag: feedback, status, and the events of three services.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from rosbag2_transport.action_topics import action_topic
 from turtlewire.distro import KILTED, since
 from turtlewire.wire.names import is_hidden
 
 if TYPE_CHECKING:
-    from rosbag2_transport.action_topics import ActionTopic
     from rosbag2_transport.options import RecordOptions
 
-__all__ = ["EVENT_TOPIC", "TopicFilter", "check_patterns", "is_service_event", "pattern"]
+__all__ = [
+    "ACTION_PARTS",
+    "EVENT_TOPIC",
+    "ActionTopic",
+    "TopicFilter",
+    "action_topic",
+    "check_patterns",
+    "is_service_event",
+    "pattern",
+    "service_of",
+]
 
 #: How the topics of service introspection end.
 EVENT_TOPIC, _EVENT_TYPE = "/_service_event", "_Event"
+#: Parts of an action in the order of ``ros2 bag info``.
+ACTION_PARTS = ("feedback", "status", "send_goal", "cancel_goal", "get_result")
+
+_NAME = re.compile(
+    r"(.+)/_action/(?:(feedback|status)|(send_goal|cancel_goal|get_result)/_service_event)"
+)
+_TYPE_ENDINGS = {
+    "feedback": "_FeedbackMessage",
+    "send_goal": "_SendGoal_Event",
+    "get_result": "_GetResult_Event",
+}
+_COMMON_TYPES = {
+    "status": "action_msgs/msg/GoalStatusArray",
+    "cancel_goal": "action_msgs/srv/CancelGoal_Event",
+}
 
 
 def is_service_event(topic: str, type_name: str) -> bool:
     """Return True if a topic carries the introspection events of a service."""
     return topic.endswith(EVENT_TOPIC) and type_name.endswith(_EVENT_TYPE)
+
+
+def service_of(topic: str, type_name: str) -> tuple[str, str]:
+    """Return the name and type of the service whose events a topic carries."""
+    return topic.removesuffix(EVENT_TOPIC), type_name.removesuffix(_EVENT_TYPE)
+
+
+class ActionTopic(NamedTuple):
+    """An action and the part of it that a topic carries.
+
+    Attributes:
+        action: Name of the action.
+        part: One of `ACTION_PARTS`.
+        type: Type of the action; empty for parts that all actions have in common.
+    """
+
+    action: str
+    part: str
+    type: str
+
+
+def action_topic(topic: str, type_name: str) -> ActionTopic | None:
+    """Return the action of a topic and its part; None for other topics."""
+    found = _NAME.fullmatch(topic)
+    if found is None:
+        return None
+    part = found[2] or found[3]
+    if part in _COMMON_TYPES:
+        return ActionTopic(found[1], part, "") if type_name == _COMMON_TYPES[part] else None
+    ending = _TYPE_ENDINGS[part]
+    if not type_name.endswith(ending):
+        return None
+    return ActionTopic(found[1], part, type_name.removesuffix(ending))
 
 
 def pattern(text: str) -> re.Pattern[str] | None:

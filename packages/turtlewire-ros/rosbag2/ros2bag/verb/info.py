@@ -22,7 +22,8 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print what the bag holds."""
     from rosbag2_py import Info
-    from rosbag2_py._metadata import action_of, is_service_event
+    from rosbag2_py._metadata import action_of
+    from rosbag2_transport.topic_filter import is_service_event
 
     if args.verbose and not args.topic_name:
         Info().read_metadata_and_output_service_verbose(args.bag_path, args.storage)

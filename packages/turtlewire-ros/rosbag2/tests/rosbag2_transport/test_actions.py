@@ -6,9 +6,8 @@ import pytest
 from tests.programs import lines_in
 
 from rosbag2_py import PlayOptions, RecordOptions
-from rosbag2_transport.action_topics import action_topic
 from rosbag2_transport.play_filter import mistakes, played_topics
-from rosbag2_transport.topic_filter import TopicFilter
+from rosbag2_transport.topic_filter import TopicFilter, action_topic
 from turtlewire.bag import BagWriter, open_bag
 
 from .conftest import end

@@ -10,7 +10,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros2bag.verb import record
 from ros2cli.main import main
 from rosbag2_interfaces import srv
-from rosbag2_transport.static_topics import read_static_topics
+from rosbag2_transport.record import read_static_topics
 from std_msgs.msg import String
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.bag.recording import Recording
