@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from rosbag2_transport.options import ServiceRequestsSource
 from rosbag2_transport.topic_filter import action_topic, is_service_event
+from turtlewire.bag.definitions import known_hash
 from turtlewire.errors import CdrError, InterfaceError, UncallableServiceError, WireError
 from turtlewire.msg import deserialize, get_message, serialize, type_hash
 from turtlewire.wire.base import ServiceTypes, TypeId
@@ -71,7 +72,7 @@ class PlayerOutputs:
             qos, warning = publisher_qos(topic)
             if warning is not None:
                 self._logger.warning(warning)
-        type_id = TypeId(topic.type, _known_hash(topic.type) or topic.type_hash)
+        type_id = TypeId(topic.type, known_hash(topic.type) or topic.type_hash)
         name = self._node.resolve_topic_name(topic.name)
         # Below rclpy's publishers, because the bytes need no message class.
         publisher = self._node._rclpy_wire.create_publisher(name, type_id, qos)
@@ -128,13 +129,6 @@ class PlayerOutputs:
         for publisher in self._publishers.values():
             publisher.close()
         self._requests.close()
-
-
-def _known_hash(type_name: str) -> str:
-    try:
-        return type_hash(type_name)
-    except InterfaceError:
-        return ""
 
 
 _DEFAULT_DEPTH = 10

@@ -13,8 +13,8 @@ from rclpy.logging import get_logger
 from rosbag2_transport.recorder_notices import missing
 from rosbag2_transport.recorder_qos import misses, refusal, subscription_qos
 from rosbag2_transport.topic_filter import TopicFilter
-from turtlewire.errors import BagError, InterfaceError, WireError
-from turtlewire.msg import type_hash
+from turtlewire.bag.definitions import known_hash
+from turtlewire.errors import BagError, WireError
 from turtlewire.package_sources import source_hint
 from turtlewire.terminal.printable import printable
 from turtlewire.wire.base import Subscription, TypeId
@@ -218,8 +218,8 @@ class BagRecorder:
         # The publishers' hash first, because this installation may have another version of the
         # type.
         their_hash = next((each.type_hash for each in publishers if each.type_hash), "")
-        known_hash = _known_hash(type_name)
-        type_id = TypeId(type_name, their_hash or known_hash)
+        our_hash = known_hash(type_name)
+        type_id = TypeId(type_name, their_hash or our_hash)
         try:
             subscription = self._opened(topic, type_id, qos, offered)
         except (BagError, WireError) as error:
@@ -234,7 +234,7 @@ class BagRecorder:
         self._repeat_if_latched(topic, qos)
         self._wait_set.attach(subscription)
         self._logger.info(f"Subscribed to topic '{topic}'")
-        if not known_hash:
+        if not our_hash:
             self._logger.warning(
                 f"The type {type_name} of topic '{topic}' is not installed: its messages are "
                 f"recorded without a definition. {source_hint(type_name)}".rstrip(". ")
@@ -329,10 +329,3 @@ class BagRecorder:
 
     def _simulated_ns(self) -> int:
         return self._node.get_clock().now().nanoseconds if self._options.use_sim_time else 0
-
-
-def _known_hash(type_name: str) -> str:
-    try:
-        return type_hash(type_name)
-    except InterfaceError:
-        return ""

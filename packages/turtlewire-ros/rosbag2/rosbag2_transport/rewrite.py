@@ -7,6 +7,7 @@ import shutil
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from rclpy.logging import get_logger
@@ -97,7 +98,7 @@ def _messages(
     """Yield the messages to write, in order; disputed types follow our definition."""
     streams = [bag.messages([name for name in bag.topics if name in wanted]) for bag in inputs]
     # Each bag is in order already, so one message of each is enough in memory.
-    for message in heapq.merge(*streams, key=_log_time):
+    for message in heapq.merge(*streams, key=attrgetter("log_time_ns")):
         if not message.data:
             text = f"Messages of {message.topic} have no bytes: left out."
             left_out[message.topic] = printable(text)
@@ -188,7 +189,3 @@ def _is_in_time(output: Output, time_ns: int) -> bool:
 
 def _fields(message: BagMessage) -> tuple[str, bytes, int, int]:
     return message.topic, message.data, message.log_time_ns, message.publish_time_ns
-
-
-def _log_time(message: BagMessage) -> int:
-    return message.log_time_ns

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from tests.needs import COMPILED_CORE
 
+from turtlewire import msg
+
 if TYPE_CHECKING:
     import turtlewire
 
@@ -136,6 +138,16 @@ class World:
         if kind < 0.3:
             return ("full", target, self._stamp(), source, self._stamp(), fixed)
         return ("lookup", target, source, self._stamp())
+
+
+def tf_bytes(parent: str, child: str, *, x: float = 0.0, stamp_s: int = 1) -> bytes:
+    """A TFMessage with one transform, in CDR."""
+    transform: Any = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    transform.header.frame_id = parent
+    transform.header.stamp.sec = stamp_s
+    transform.transform.translation.x = x
+    message: Any = msg.get_message("tf2_msgs/msg/TFMessage")(transforms=[transform])
+    return msg.serialize(message)
 
 
 @pytest.fixture(scope="session")

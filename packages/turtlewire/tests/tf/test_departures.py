@@ -15,16 +15,11 @@ from turtlewire.wire.base import EndpointInfo, NodeInfo, TypeId
 from turtlewire.wire.graph import GraphView
 from turtlewire.wire.qos import QoS
 
+from .conftest import tf_bytes
+
 TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
 LONG_S = 60.0
 LONG_NS = 60_000_000_000
-
-
-def tf_bytes(parent, child, stamp_s=1):
-    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
-    transform.header.frame_id = parent
-    transform.header.stamp.sec = stamp_s
-    return msg.serialize(msg.get_message(TYPE_NAME)(transforms=[transform]))
 
 
 class NotingBuffer(Buffer):
@@ -53,7 +48,7 @@ class Robot:
         """Publish a transform, and wait until the buffer has it."""
         publisher = publisher or self.tf
         self.context.graph.wait_for(lambda: publisher.subscription_count() > 0, LONG_NS)
-        publisher.publish(tf_bytes("world", child, stamp_s))
+        publisher.publish(tf_bytes("world", child, stamp_s=stamp_s))
         buffer.lookup_transform("world", child, None, timeout_ns=LONG_NS)
 
     def leave(self, graph):

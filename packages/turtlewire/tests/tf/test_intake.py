@@ -19,6 +19,8 @@ from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import History
 
+from .conftest import tf_bytes
+
 pytestmark = pytest.mark.skipif(core.CORE != "native", reason=COMPILED_CORE)
 
 TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
@@ -26,11 +28,8 @@ KEEP_ALL = QOS._replace(history=History.KEEP_ALL)
 LONG_NS = 60_000_000_000
 
 
-def tf_bytes(stamp_s, child="robot"):
-    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
-    transform.header.frame_id = "world"
-    transform.header.stamp.sec = stamp_s
-    return msg.serialize(msg.get_message(TYPE_NAME)(transforms=[transform]))
+def from_world(stamp_s, child="robot"):
+    return tf_bytes("world", child, stamp_s=stamp_s)
 
 
 class Flow:
@@ -68,7 +67,7 @@ class Flow:
     def send(self, buffer):
         """Send one transform and wait until it is in the buffer."""
         stamp_s = next(self._stamps)
-        self.publisher.publish(tf_bytes(stamp_s))
+        self.publisher.publish(from_world(stamp_s))
         buffer.lookup_transform("world", "robot", stamp_s * 1_000_000_000, timeout_ns=LONG_NS)
 
     def send_until_short(self, buffer):
@@ -136,7 +135,7 @@ def test_messages_during_the_name_lookup_need_no_python(flow, monkeypatch):
     with flow.listen(buffer):
         flow.wait_for_match()
         for stamp_s in range(1, 51):
-            flow.publisher.publish(tf_bytes(stamp_s))
+            flow.publisher.publish(from_world(stamp_s))
             assert busy.wait(60)
         go.set()
         buffer.lookup_transform("world", "robot", 50_000_000_000, timeout_ns=LONG_NS)
@@ -150,7 +149,7 @@ def test_listeners_hear_of_what_was_stored_with_the_name(flow):
     buffer.on_change(heard.set)
     with flow.listen(buffer):
         flow.wait_for_match()
-        flow.publisher.publish(tf_bytes(1))  # none follows that could wake them
+        flow.publisher.publish(from_world(1))  # none follows that could wake them
         assert heard.wait(60)
         assert buffer.can_transform("world", "robot")
 
@@ -200,7 +199,7 @@ def test_nothing_is_lost_or_overtaken_while_publishers_are_introduced(flow):
 
         def flood(number):
             for stamp_s in range(1, count + 1):
-                publishers[number].publish(tf_bytes(stamp_s, f"robot{number}"))
+                publishers[number].publish(from_world(stamp_s, f"robot{number}"))
 
         threads = [threading.Thread(target=flood, args=(number,)) for number in range(3)]
         for thread in threads:
@@ -281,7 +280,7 @@ def test_latched_transforms_take_part(flow):
         "/tf_static", TYPE, STATIC_QOS._replace(depth=10)
     )
     for number in range(10):
-        static.publish(tf_bytes(1, f"wall{number}"))
+        static.publish(from_world(1, f"wall{number}"))
     buffers = [Buffer() for _ in range(3)]
     for buffer in buffers:  # each begins a new subscription, with what was published before
         with flow.listen(buffer):
@@ -298,7 +297,7 @@ def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):
         for stamp_s in itertools.count(1):
             if stop.is_set():
                 return
-            volatile.publish(tf_bytes(stamp_s % 1_000_000_000))
+            volatile.publish(from_world(stamp_s % 1_000_000_000))
 
     thread = threading.Thread(target=flood)
     thread.start()
@@ -314,7 +313,7 @@ def test_listeners_and_contexts_close_in_the_middle_of_the_stream(flow):
                 opened.close()
             context.close()
             newest = [buffer._latest_common_time("world", "robot") for buffer in buffers]
-            flow.publisher.publish(tf_bytes(1))
+            flow.publisher.publish(from_world(1))
             assert newest == [buffer._latest_common_time("world", "robot") for buffer in buffers]
     finally:
         stop.set()
@@ -335,7 +334,7 @@ def test_the_gids_of_publishers_that_left_are_forgotten(flow):
             assert flow.sender.graph.wait_for(
                 lambda guest=guest: guest.subscription_count() == 1, LONG_NS
             )
-            guest.publish(tf_bytes(1, f"guest{number}"))
+            guest.publish(from_world(1, f"guest{number}"))
             assert buffer.can_transform("world", f"guest{number}", None, timeout_ns=LONG_NS)
             guest.close()
             assert flow.receiver.graph.wait_for(

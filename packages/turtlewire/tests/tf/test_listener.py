@@ -22,16 +22,10 @@ from turtlewire.wire import report
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
+from .conftest import tf_bytes
+
 TYPE = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
 LONG_NS = 60_000_000_000
-
-
-def tf_bytes(parent, child, x=0.0, stamp_s=1):
-    transform = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
-    transform.header.frame_id = parent
-    transform.header.stamp.sec = stamp_s
-    transform.transform.translation.x = x
-    return msg.serialize(msg.get_message(TYPE_NAME)(transforms=[transform]))
 
 
 class Domain:

@@ -301,6 +301,9 @@ def test_wrong_words(pair):
         rpe(*pair, delta=0.5)
     with pytest.raises(ValueError, match="unknown alignment 'SE3'"):
         compare(*pair, "SE3")
+    for count in (0, -1):
+        with pytest.raises(ValueError, match=f"poses_to_align is {count}; it must be positive"):
+            compare(*pair, "se3", poses_to_align=count)
     with pytest.raises(ValueError, match="300 and 10 poses; associate them first"):
         ape(pair[0], pair[1][:10])
 

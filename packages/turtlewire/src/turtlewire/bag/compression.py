@@ -15,8 +15,6 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
-    from typing import BinaryIO
-
     from turtlewire.bag.message import BagMessage
 
 __all__ = [
@@ -137,12 +135,7 @@ def read_zstd_file(path: str) -> Iterator[bytes]:
 def write_zstd_file(source: str, target: str) -> None:
     """Compress a whole file as rosbag2's compression mode FILE does (level 1)."""
     with open(source, "rb") as file, _zstd().open(target, "wb", level=_ZSTD_LEVEL) as out:
-        _copy(file, out)
-
-
-def _copy(source: BinaryIO, target: BinaryIO) -> None:
-    while block := source.read(_FILE_BLOCK):
-        target.write(block)
+        shutil.copyfileobj(file, out, _FILE_BLOCK)
 
 
 def _decompressor(compression: str) -> Callable[[bytes | memoryview, int, bool], bytes]:

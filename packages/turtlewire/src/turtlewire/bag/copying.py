@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Iterator, Sequence
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtlewire.bag.mcap_records import OPCODE_AND_LENGTH, ChunkIndex, Op
@@ -64,7 +65,7 @@ class MessageCopy:
         streams = [self._messages(bag, start_ns, end_ns) for bag in self._bags]
         first = max(start_ns, min(bag.start_ns for bag in self._bags))
         last = min(end_ns, max(bag.end_ns for bag in self._bags))
-        for number, message in enumerate(heapq.merge(*streams, key=_log_time)):
+        for number, message in enumerate(heapq.merge(*streams, key=attrgetter("log_time_ns"))):
             data = message.data if self._frames is None else self._frames.apply(message)
             name = self._channels.name_of_message(message)
             pieces.write(name, data, message.log_time_ns, message.publish_time_ns)
@@ -229,7 +230,7 @@ class ChunkCopy:
             chunks = [each.chunk for each in contested if each.file == number]
             chunks.sort(key=_start)
             streams.append(self._messages(number, chunks, start_ns, last_ns))
-        for message in heapq.merge(*streams, key=_log_time):
+        for message in heapq.merge(*streams, key=attrgetter("log_time_ns")):
             name = self._channels.name_of_message(message)
             pieces.write(name, message.data, message.log_time_ns, message.publish_time_ns)
 
@@ -282,10 +283,6 @@ def _contested(ordered: list[tuple[ChunkIndex, int]]) -> dict[int, set[int]]:
             found[number].add(chunk.offset)
         starts[number] = chunk.start_ns
     return found
-
-
-def _log_time(message: BagMessage) -> int:
-    return message.log_time_ns
 
 
 def _start(chunk: ChunkIndex) -> int:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.bag.metadata import full_type_name
 from turtlewire.errors import InterfaceError
+from turtlewire.msg import type_hash
 from turtlewire.msg.definition import MessageDefinition, ServiceDefinition, nested_types
 from turtlewire.msg.parser import parse_message
 from turtlewire.msg.registry import (
@@ -29,6 +30,7 @@ __all__ = [
     "ENCODING",
     "definition_text",
     "has_interface",
+    "known_hash",
     "learn_types",
     "parse_definition",
 ]
@@ -119,6 +121,14 @@ def has_interface(type_name: str) -> bool:
     except (InterfaceError, ValueError):  # damaged bags contain invalid type names
         return False
     return True
+
+
+def known_hash(type_name: str) -> str:
+    """Return the hash of a type; empty if the type is not known."""
+    try:
+        return type_hash(type_name)
+    except InterfaceError:
+        return ""
 
 
 def _owner(full_name: str) -> str:

@@ -8,7 +8,7 @@ import shutil
 import tempfile
 import weakref
 from collections.abc import Callable, Iterable, Iterator
-from types import TracebackType
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import unpack_file, unpacked
@@ -98,12 +98,7 @@ class Bag:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        _type: type[BaseException] | None,
-        _error: BaseException | None,
-        _traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_error: object) -> None:
         self.close()
 
     def __len__(self) -> int:
@@ -224,7 +219,10 @@ class Bag:
         for group in overlapping(self.metadata):
             files = self.readable_files(group, damage)
             streams = [self._messages_of(file, wanted, start, end, damage) for file in files]
-            yield from heapq.merge(*streams, key=_log_time) if len(streams) != 1 else streams[0]
+            if len(streams) == 1:
+                yield from streams[0]
+            else:
+                yield from heapq.merge(*streams, key=attrgetter("log_time_ns"))
         if damage:
             raise damage[0]
 
@@ -448,7 +446,3 @@ def _without(error: BagError | OSError, bag: str) -> BagError:
     left_out = BagError(f"{error}; the other files were read")
     left_out.with_hint(f"Put the file back, or let `ros2 bag reindex {bag}` forget it.")
     return left_out
-
-
-def _log_time(message: BagMessage) -> int:
-    return message.log_time_ns

@@ -7,11 +7,11 @@ import errno
 import os
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from types import TracebackType
 from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
 from turtlewire.bag.compression import write_zstd_file
+from turtlewire.bag.definitions import known_hash
 from turtlewire.bag.files import file_name
 from turtlewire.bag.mcap_writer import CHUNK_BYTES, McapWriter
 from turtlewire.bag.message import channel_of_text
@@ -36,8 +36,7 @@ from turtlewire.bag.writer_checks import (
     known_definition,
 )
 from turtlewire.call_errors import hint_at
-from turtlewire.errors import BagError, InterfaceError
-from turtlewire.msg import type_hash
+from turtlewire.errors import BagError
 from turtlewire.path_arguments import path_text
 from turtlewire.tf.datetimes import as_nanoseconds
 from turtlewire.tf.tf_topics import refuse_other_types
@@ -185,12 +184,7 @@ class BagWriter:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        _type: type[BaseException] | None,
-        _error: BaseException | None,
-        _traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_error: object) -> None:
         self.close()
 
     @property
@@ -240,7 +234,7 @@ class BagWriter:
         if definition is None:
             definition = known_definition(type_name)
         if hash_of_type is None:
-            hash_of_type = _known_hash(type_name)
+            hash_of_type = known_hash(type_name)
         topic = TopicInfo(name, type_name, "cdr", list(qos), hash_of_type)
         self.add_channel(name, channel_of_text(topic, definition))
 
@@ -572,10 +566,3 @@ def _make_folder(path: str) -> None:
     except FileExistsError:
         text = "a bag needs a new folder; choose another path, or remove this one first"
         raise FileExistsError(errno.EEXIST, text, path) from None
-
-
-def _known_hash(type_name: str) -> str:
-    try:
-        return type_hash(type_name)
-    except InterfaceError:
-        return ""

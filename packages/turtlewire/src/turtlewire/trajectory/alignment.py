@@ -20,10 +20,10 @@ __all__ = ["ALIGNMENTS", "Alignment", "AlignmentName", "align", "associate"]
 
 AlignmentName = Literal["none", "origin", "yaw", "se3", "sim3"]
 
-#: The ways to align, by the parts of the estimate that may be moved.
 #: No sensor returns poses so fast; its square is a pause of a millisecond.
 _SHORTEST_PAUSE_NS = 1000
 
+#: The ways to align, by the parts of the estimate that may be moved.
 ALIGNMENTS = ("none", "origin", "yaw", "se3", "sim3")
 
 

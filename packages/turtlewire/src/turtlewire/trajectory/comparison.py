@@ -177,8 +177,8 @@ def compare(
 
     Raises:
         TypeError: An argument is not a trajectory.
-        ValueError: No stamps match, the numbers of poses differ and not both have times, or the
-            alignment is not possible.
+        ValueError: No stamps match, the numbers of poses differ and not both have times,
+            ``poses_to_align`` is not positive, or the alignment is not possible.
     """
     for given in (reference, estimate):
         if not isinstance(given, Trajectory):
@@ -186,6 +186,10 @@ def compare(
                 f"compare accepts two trajectories, got {type(given).__name__}; read a file with "
                 "Trajectory.load(path)"
             )
+    if poses_to_align is not None and poses_to_align < 1:
+        raise ValueError(
+            f"poses_to_align is {poses_to_align}; it must be positive, or None for all"
+        )
     if reference.timed and estimate.timed:
         rows = associate(
             reference,
@@ -203,8 +207,7 @@ def compare(
     gaps = _gaps_between(stamps, (reference, rows[0]), (estimate, rows[1]))
     first = _at(reference, rows[0], stamps, gaps)
     second = _at(estimate, rows[1], stamps, gaps)
-    count = len(first) if poses_to_align is None else poses_to_align
-    moved = alignment.align(first[:count], second[:count], align)
+    moved = alignment.align(first[:poses_to_align], second[:poses_to_align], align)
     return Comparison(first, moved.apply(second), align, moved)
 
 

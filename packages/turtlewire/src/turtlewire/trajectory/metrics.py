@@ -82,7 +82,7 @@ class Statistics(NamedTuple):
     }
 )
 class PoseErrors(NamedTuple):
-    """PoseErrors of poses or of pairs of poses.
+    """Errors of poses or of pairs of poses.
 
     Attributes:
         name: ``APE`` or ``RPE``.
