@@ -13,6 +13,7 @@ from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
+    from ros2cli.arguments import Argument, Completer
     from rosbag2_py import StorageOptions
 
 STORAGES = ("mcap", "sqlite3")
@@ -88,6 +89,11 @@ REMAP = argument(
     default=[],
     help="New names of topics, for example /tf:=/old_tf",
 )
+
+
+def several(flag: str, what: str, text: str, completer: Completer | None = None) -> Argument:
+    """Return an option that takes one or more names, and is empty by default."""
+    return argument(flag, metavar=what, nargs="+", default=[], help=text, completer=completer)
 
 
 def bag_and_storage(words: Sequence[str]) -> tuple[str, str]:

@@ -16,6 +16,7 @@ from ros2bag.options import (
     event_topics,
     qos_overrides,
     remap_words,
+    several,
 )
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument
@@ -28,28 +29,9 @@ __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "BurstVerb", "main"]
 ARGUMENTS = (
     *BAGS_TO_PLAY,
     READ_AHEAD,
-    argument(
-        "--topics",
-        metavar="topic",
-        nargs="+",
-        default=[],
-        help="Topics to publish (default: all)",
-        completer=bag_topics,
-    ),
-    argument(
-        "--services",
-        metavar="service",
-        nargs="+",
-        default=[],
-        help="Services whose events to publish (default: all)",
-    ),
-    argument(
-        "--actions",
-        metavar="action",
-        nargs="+",
-        default=[],
-        help="Actions to publish (default: all)",
-    ),
+    several("--topics", "topic", "Topics to publish (default: all)", bag_topics),
+    several("--services", "service", "Services whose events to publish (default: all)"),
+    several("--actions", "action", "Actions to publish (default: all)"),
     QOS_OVERRIDES,
     REMAP,
     STORAGE_CONFIG,

@@ -19,6 +19,7 @@ from ros2bag.options import (
     event_topics,
     qos_overrides,
     remap_words,
+    several,
 )
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument, exclusive
@@ -65,50 +66,16 @@ ARGUMENTS = (
     argument(
         "-r", "--rate", type=positive_float, default=1.0, help="Playback speed; 2 is twice as fast"
     ),
-    argument(
-        "--topics",
-        metavar="topic",
-        nargs="+",
-        default=[],
-        help="Topics to play (default: all)",
-        completer=bag_topics,
-    ),
-    argument(
-        "--services",
-        metavar="service",
-        nargs="+",
-        default=[],
-        help="Services whose events to play (default: all)",
-    ),
-    argument(
-        "--actions",
-        metavar="action",
-        nargs="+",
-        default=[],
-        help="Actions to play (default: all)",
-    ),
+    several("--topics", "topic", "Topics to play (default: all)", bag_topics),
+    several("--services", "service", "Services whose events to play (default: all)"),
+    several("--actions", "action", "Actions to play (default: all)"),
     argument("-e", "--regex", default="", help="Play topics and services whose names match"),
     argument(
         "-x", "--exclude-regex", default="", help="Leave out topics and services whose names match"
     ),
-    argument(
-        "--exclude-topics",
-        metavar="topic",
-        nargs="+",
-        default=[],
-        help="Topics to leave out",
-        completer=bag_topics,
-    ),
-    argument(
-        "--exclude-services",
-        metavar="service",
-        nargs="+",
-        default=[],
-        help="Services whose events to leave out",
-    ),
-    argument(
-        "--exclude-actions", metavar="action", nargs="+", default=[], help="Actions to leave out"
-    ),
+    several("--exclude-topics", "topic", "Topics to leave out", bag_topics),
+    several("--exclude-services", "service", "Services whose events to leave out"),
+    several("--exclude-actions", "action", "Actions to leave out"),
     QOS_OVERRIDES,
     argument("-l", "--loop", action="store_true", help="Restart at the end"),
     REMAP,

@@ -17,6 +17,7 @@ from ros2bag.options import (
     event_topics,
     existing_file,
     qos_overrides,
+    several,
 )
 from ros2bag.verb import VerbExtension
 from ros2cli import arguments
@@ -57,14 +58,7 @@ _POSITIONAL = (
     'Positional "topics" argument deprecated. Please use optional "--topics" argument instead.'
 )
 
-_TOPICS = argument(
-    "--topics",
-    metavar="topic",
-    nargs="+",
-    default=[],
-    help="Names of topics to record",
-    completer=topic_names,
-)
+_TOPICS = several("--topics", "topic", "Names of topics to record", topic_names)
 _POSITIONAL_TOPICS = argument(
     "topics_positional",
     metavar="topic",
@@ -86,30 +80,14 @@ ARGUMENTS = (
         default="mcap",
         help="Storage format (default: mcap)",
     ),
-    argument(
-        "--services",
-        metavar="service",
-        nargs="+",
-        default=[],
-        help="Services whose events to record",
-        completer=service_names,
-    ),
-    argument(
+    several("--services", "service", "Services whose events to record", service_names),
+    several(
         "--actions",
-        metavar="action",
-        nargs="+",
-        default=[],
-        help="Actions to record: feedback, status, and the events of their services",
-        completer=action_names,
+        "action",
+        "Actions to record: feedback, status, and the events of their services",
+        action_names,
     ),
-    argument(
-        "--topic-types",
-        metavar="type",
-        nargs="+",
-        default=[],
-        help="Types of topics to record",
-        completer=message_types,
-    ),
+    several("--topic-types", "type", "Types of topics to record", message_types),
     argument(
         "--static-topics-path",
         type=existing_file,
@@ -131,38 +109,10 @@ ARGUMENTS = (
     argument(
         "--exclude-regex", default="", help="Leave out topics and services with a match in the name"
     ),
-    argument(
-        "--exclude-topic-types",
-        metavar="type",
-        nargs="+",
-        default=[],
-        help="Types of topics to leave out",
-        completer=message_types,
-    ),
-    argument(
-        "--exclude-topics",
-        metavar="topic",
-        nargs="+",
-        default=[],
-        help="Topics to leave out",
-        completer=topic_names,
-    ),
-    argument(
-        "--exclude-services",
-        metavar="service",
-        nargs="+",
-        default=[],
-        help="Services whose events to leave out",
-        completer=service_names,
-    ),
-    argument(
-        "--exclude-actions",
-        metavar="action",
-        nargs="+",
-        default=[],
-        help="Actions to leave out",
-        completer=action_names,
-    ),
+    several("--exclude-topic-types", "type", "Types of topics to leave out", message_types),
+    several("--exclude-topics", "topic", "Topics to leave out", topic_names),
+    several("--exclude-services", "service", "Services whose events to leave out", service_names),
+    several("--exclude-actions", "action", "Actions to leave out", action_names),
     argument(
         "--include-unpublished-topics",
         action="store_true",

@@ -13,6 +13,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 from turtlewire.bag import open_bag
+from turtlewire.errors import BagError
 
 LATCHED = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 DEEP = QoSProfile(depth=10_000)
@@ -111,4 +112,16 @@ def texts(path, topic):
         return [message.decode().data for message in bag.messages(topic)]
 
 
-__all__ = ["DEEP", "LATCHED", "ROS2", "Peer", "end", "texts"]
+def wait_until_written(path, topic, count):
+    """Wait until the file of a bag that is being recorded holds this many messages."""
+    for _ in range(600):
+        try:
+            if len(texts(path, topic)) >= count:
+                return
+        except (BagError, FileNotFoundError):
+            pass  # not begun yet
+        threading.Event().wait(0.1)
+    raise AssertionError(f"{texts(path, topic)} in {path}")
+
+
+__all__ = ["DEEP", "LATCHED", "ROS2", "Peer", "end", "texts", "wait_until_written"]

@@ -8,7 +8,7 @@ from tests.places import HOW_TO, PATH
 
 from turtlewire.bag import open_bag
 
-from .conftest import end, texts
+from .conftest import end, wait_until_written
 
 PAGE = HOW_TO / "record_and_play.md"
 
@@ -44,19 +44,9 @@ def do(shell, line, folder):
     program = shell(line)
     if line.startswith("ros2 bag record"):
         program.wait_for("All requested topics are subscribed")
-        wait_until_recorded(folder / "my_bag")
+        wait_until_written(folder / "my_bag", "/chatter", 9)
         assert end(program) == 0
         return
     assert program.wait() == 0, program.text
     if line.startswith("ros2 bag info my_bag"):
         assert "Topic: /chatter | Type: std_msgs/msg/String" in program.text
-
-
-def wait_until_recorded(path):
-    import threading
-
-    for _ in range(600):
-        if path.exists() and any(path.glob("*.mcap")) and len(texts(path, "/chatter")) > 8:
-            return
-        threading.Event().wait(0.1)
-    raise AssertionError(path)

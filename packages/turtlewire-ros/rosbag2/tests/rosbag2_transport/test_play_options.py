@@ -10,6 +10,7 @@ from tests.places import GOLDEN
 import rosbag2_py
 from example_interfaces.srv import AddTwoInts
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
 from ros2bag.verb import play
 from ros2cli.arguments import add_arguments
 from rosbag2_interfaces import srv
@@ -264,7 +265,7 @@ def test_late_listeners_get_the_whole_tree(peer, bag_verb):
     seek, name = "/rosbag2_player/seek", "/tf_static"
     leaves = {f"leaf{i:02d}" for i in range(13)}
     for second in (3, 1, 2):
-        peer.call(srv.Seek, seek, time=stamp(START + second * SECOND))
+        peer.call(srv.Seek, seek, time=Time(nanoseconds=START + second * SECOND).to_msg())
         late = peer.listen(name, LATCHED, TFMessage)
         peer.wait_for(lambda: {frame for m in late for frame in frames(m)} == leaves)  # noqa: B023
     peer.call(srv.Stop, "/rosbag2_player/stop")
@@ -273,12 +274,6 @@ def test_late_listeners_get_the_whole_tree(peer, bag_verb):
 
 def frames(message):
     return [transform.child_frame_id for transform in message.transforms]
-
-
-def stamp(time_ns):
-    from builtin_interfaces.msg import Time
-
-    return Time(sec=time_ns // SECOND, nanosec=time_ns % SECOND)
 
 
 def test_a_listener_that_stands_still_does_not_hold_back_ctrl_c(peer, bag_verb, run):

@@ -6,6 +6,7 @@ import re
 import pytest
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
 from rosbag2_interfaces import srv
 from rosbag2_interfaces.msg import ReadSplitEvent
 from rosgraph_msgs.msg import Clock
@@ -15,7 +16,7 @@ from tf2_msgs.msg import TFMessage
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
-from .conftest import DEEP, LATCHED, end, texts
+from .conftest import DEEP, LATCHED, end, texts, wait_until_written
 
 GOLDEN = places.GOLDEN / "bag"
 SMALL = GOLDEN / "p_small"
@@ -197,9 +198,9 @@ def test_after_a_seek_listeners_have_what_was_latched_then(peer, bag_verb, tmp_p
     player = bag_verb("play", write_latched(tmp_path / "bag"), "-p")
     peer.wait_for(lambda: words)
     seek = "/rosbag2_player/seek"
-    peer.call(srv.Seek, seek, time=stamp(START + 3 * SECOND))
+    peer.call(srv.Seek, seek, time=Time(nanoseconds=START + 3 * SECOND).to_msg())
     peer.wait_for(lambda: len(words) == 2)
-    peer.call(srv.Seek, seek, time=stamp(START + SECOND))
+    peer.call(srv.Seek, seek, time=Time(nanoseconds=START + SECOND).to_msg())
     peer.wait_for(lambda: len(words) == 3)
     assert list(map(content, words)) == ["first", "second", "first"]
     assert peer.call(srv.PlayNext, "/rosbag2_player/play_next").success
@@ -220,12 +221,6 @@ def test_each_round_sends_what_is_latched_before_the_offset(peer, bag_verb, tmp_
     peer.wait_for(lambda: len(words) >= 8)
     assert list(map(content, words[:8])) == ["first", "second"] * 4
     assert end(player) == 0
-
-
-def stamp(time_ns):
-    from builtin_interfaces.msg import Time
-
-    return Time(sec=time_ns // SECOND, nanosec=time_ns % SECOND)
 
 
 def test_keys(peer, bag_verb, tmp_path):
@@ -256,14 +251,14 @@ def test_other_nodes_hear_of_the_next_file_and_steer_the_player(peer, bag_verb, 
     splits = peer.listen("/events/read_split", type_=ReadSplitEvent)
     player, name = bag_verb("play", tmp_path / "bag", "-p"), "/rosbag2_player"
     for _ in range(600):  # until the player knows the listener
-        peer.call(srv.Seek, f"{name}/seek", time=stamp(START))
+        peer.call(srv.Seek, f"{name}/seek", time=Time(nanoseconds=START).to_msg())
         assert peer.call(srv.Burst, f"{name}/burst", num_messages=10).actually_burst == 4
         if splits:
             break
     assert splits[0].closed_file == str(tmp_path / "bag" / "bag_0.mcap")
     assert splits[0].opened_file == str(tmp_path / "bag" / "bag_1.mcap")
     assert splits[0].node_name == name
-    peer.call(srv.Seek, f"{name}/seek", time=stamp(START))
+    peer.call(srv.Seek, f"{name}/seek", time=Time(nanoseconds=START).to_msg())
     assert peer.call(srv.SetRate, f"{name}/set_rate", rate=0.001).success
     peer.call(srv.TogglePaused, f"{name}/toggle_paused")
     assert not peer.call(srv.IsPaused, f"{name}/is_paused").paused
@@ -285,7 +280,7 @@ def test_a_recorded_playback_is_the_bag_again(bag_verb, tmp_path, peer):
     recorder.wait_for("All requested topics are subscribed")
     peer.call(srv.Resume, "/rosbag2_player/resume")
     assert player.wait() == 0
-    wait_until_quiet(peer, tmp_path / "again")
+    wait_until_written(tmp_path / "again", "/a", len(texts(SMALL, "/a")))
     assert end(recorder) == 0
     for topic in ("/a", "/b", "/lossy", "/latched"):
         assert texts(tmp_path / "again", topic) == texts(SMALL, topic)
@@ -295,14 +290,3 @@ def test_a_recorded_playback_is_the_bag_again(bag_verb, tmp_path, peer):
             assert topic.type == theirs.type
             assert topic.qos[0].durability == theirs.qos[0].durability
             assert topic.qos[0].reliability == theirs.qos[0].reliability
-
-
-def wait_until_quiet(peer, path):
-    """The player is gone; until all that it sent is in the file."""
-    import threading
-
-    for _ in range(600):
-        if len(texts(path, "/a")) == len(texts(SMALL, "/a")):
-            return
-        threading.Event().wait(0.1)
-    raise AssertionError(texts(path, "/a"))

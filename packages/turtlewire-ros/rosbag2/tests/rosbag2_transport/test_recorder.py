@@ -18,11 +18,10 @@ from rosbag2_transport.options import RecordOptions
 from rosbag2_transport.recorder import BagRecorder
 from std_msgs.msg import String
 from turtlewire.bag import open_bag, reindex
-from turtlewire.errors import BagError
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import QoS
 
-from .conftest import DEEP, LATCHED, ROS2, end, texts
+from .conftest import DEEP, LATCHED, ROS2, end, texts, wait_until_written
 
 NAMES = [f"number {i}" for i in range(500)]
 SIZE_LIMIT = 3_000_000
@@ -36,18 +35,6 @@ LIMITED = (
 def publish(publisher, names=NAMES):
     for name in names:
         publisher.publish(String(data=name))
-
-
-def wait_until_written(path, topic, count):
-    """Wait until the file of a bag that is being recorded holds this many messages."""
-    for _ in range(600):
-        try:
-            if len(texts(path, topic)) >= count:
-                return
-        except (BagError, FileNotFoundError):
-            pass  # not begun yet
-        threading.Event().wait(0.1)
-    raise AssertionError(f"{texts(path, topic)} in {path}")
 
 
 #: Ctrl-C, and what comes when the terminal is closed; on Windows there is only the first.
