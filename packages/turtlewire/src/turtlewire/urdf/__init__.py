@@ -18,8 +18,7 @@ module              contents
 `values`            numbers and vectors in attributes
 `faults`            log lines about errors and warnings of a URDF
 `joint_model`       transforms of joints at given positions, as arrays
-`kinematics`        forward kinematics for many joint states at once
-`robot_buffer`      the transforms of all links in a buffer
+`kinematics`        forward kinematics for many joint states at once, as poses or a buffer
 `notebook`          the display of robots in Jupyter
 `joint_messages`    bytes of a JointState to bytes of a TFMessage
 ==================  ==============================================================

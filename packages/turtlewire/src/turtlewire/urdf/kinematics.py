@@ -16,6 +16,7 @@ from turtlewire.urdf.joints import followers_of
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from turtlewire.tf.buffer import Buffer
     from turtlewire.urdf.model import Description
 
     Array: TypeAlias = NDArray[np.float64]
@@ -189,6 +190,31 @@ class Kinematics:
             target[..., 3:] = arrays.multiply(parents[..., 3:], below[..., 3:])
             begin = end
         return poses
+
+    def buffer(
+        self, positions: Mapping[str, ArrayLike] | ArrayLike, stamps: ArrayLike | None
+    ) -> Buffer:
+        """Return a buffer with all links; see `Robot.transforms`."""
+        from turtlewire.tf.buffer import Buffer
+
+        local = self.joint_transforms(positions)
+        if stamps is None and len(local) != 1:
+            raise ValueError(f"{len(local)} rows of positions need as many stamps: pass `stamps`")
+        if stamps is not None and np.shape(stamps) != (len(local),):
+            raise ValueError(
+                f"expected stamps of shape ({len(local)},), one for each row of the positions; got "
+                f"{np.shape(stamps)}"
+            )
+        buffer = Buffer(cache_time_ns=None)
+        for number, link in enumerate(self.links[1:]):
+            joint = self.robot.parent_joints[link]
+            poses = local[:, number]
+            if joint.moves and stamps is not None:
+                buffer.set_transforms(joint.parent, link, stamps, poses)
+            elif len(poses):
+                pose = poses[0].tolist()
+                buffer.set_static_transform(joint.parent, link, pose[:3], pose[3:])
+        return buffer
 
     def _drives(self, joints: list[str]) -> tuple[NDArray[np.intp], Array, Array]:
         """Return for each joint the column that drives it, its factor and its offset."""

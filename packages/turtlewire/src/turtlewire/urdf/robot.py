@@ -231,9 +231,7 @@ class Robot(Description):
             KeyError: No free joint has that name.
             ValueError: The shapes do not fit, or there are several rows and no stamps.
         """
-        from turtlewire.urdf.robot_buffer import buffer_of
-
-        return buffer_of(self._kinematics, self._states(positions), stamps)
+        return self._kinematics.buffer(self._states(positions), stamps)
 
     def clip(self, positions: Positions) -> NDArray[np.float64]:
         """Return the positions (N, joints) moved into the limits; continuous joints have none."""
