@@ -1,4 +1,4 @@
-"""What other nodes monitor and control a player through: services, split events, ``/clock``."""
+"""Lets other nodes monitor and control a player: services, split events, ``/clock``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chooses the topics of the graph that are recorded; knows those of actions and services.
+"""Chooses the topics of the graph that are recorded; knows the topics of actions and services.
 
 An action has five topics in a bag: feedback, status, and the events of three services.
 """
