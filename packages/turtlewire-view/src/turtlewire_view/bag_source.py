@@ -50,7 +50,7 @@ class BagSource(OfflineSource):
         self._path = path
         with open_bag(path) as bag:
             self._start_ns, self._end_ns = bag.start_ns, bag.end_ns
-            self.problem = not_in_cdr(bag.topics.values())
+            unreadable = not_in_cdr(bag.topics.values())
             self._topics = [
                 Topic(name, info.type, 1)
                 for name, info in sorted(bag.topics.items())
@@ -58,7 +58,8 @@ class BagSource(OfflineSource):
             ]
         self.name = os.path.basename(os.path.normpath(os.fspath(path)))
         self.buffer = self._read_frames(max_frames)
-        self.problem = " ".join(filter(None, (self.problem, frames_left_out(self.buffer))))
+        self._left_out = (unreadable, frames_left_out(self.buffer))
+        self._fault = ""  # why it cannot be read now
         self._stamps = StampsOfLog(path) if self._has_other_stamps() else None
         self._changed: Callable[[], None] = lambda: None
         self._news = threading.Condition()
@@ -70,6 +71,11 @@ class BagSource(OfflineSource):
         self._closed = False
         self._thread = threading.Thread(target=self._run, name="turtlewire-view-bag", daemon=True)
         self._thread.start()
+
+    @property
+    def problem(self) -> str:
+        """Says what of the bag is not shown, and why it cannot be read; empty if all is well."""
+        return " ".join(filter(None, (*self._left_out, self._fault)))
 
     def now_ns(self) -> int:
         """Return the time of the bag that is shown."""
@@ -189,14 +195,15 @@ class BagSource(OfflineSource):
                     return
                 wanted, start_ns = self._wanted, self._from_ns
                 sinks = {topic: list(calls) for topic, calls in self._sinks.items()}
+            self._fault = ""
             try:
                 self._deliver_last(sinks, start_ns)
                 self._changed()
                 self._play_from(start_ns, sinks, wanted)
             except BagError as error:  # everything readable was delivered; the frames stay
-                self.problem = str(error)
+                self._fault = str(error)
             except OSError as error:  # the files are gone, for example
-                self.problem = f"The bag cannot be read: {error}"
+                self._fault = f"The bag cannot be read: {error}"
             self._play(None, sinks, wanted)
 
     def _deliver_last(self, sinks: dict[str, list[Callable[[bytes], None]]], at_ns: int) -> None:

@@ -46,13 +46,24 @@ def test_numbers_of_javascript_take_the_type_that_the_parameter_has():
     assert from_json([], "float64_array", 0).type == 8
     assert from_json(None, None, 3).type == 0
     assert to_json("/n.p", from_json(None, None, 3)) == {"name": "/n.p"}
-    for wrong in ({"a": 1}, [[1]], [1, "a"], 2**63):
-        with pytest.raises(ValueError, match=r"."):
-            from_json(wrong, None, 0)
-    with pytest.raises(ValueError, match="base64"):
-        from_json("*", "byte_array", 0)
-    with pytest.raises(ValueError, match="base64"):
-        from_json(7, "byte_array", 0)
+
+
+@pytest.mark.parametrize(
+    ("value", "type_name", "present_type", "reason"),
+    [
+        ({"a": 1}, None, 0, "a parameter must be a bool"),
+        ([[1]], None, 0, "a parameter must be a bool"),
+        ([1, "a"], None, 0, "the items of a list are of different types"),
+        (2**63, None, 0, "does not fit into 64 bits"),
+        (10**400, None, 3, "does not fit into 64 bits"),
+        ("*", "byte_array", 0, "base64"),
+        (7, "byte_array", 0, "base64"),
+    ],
+    ids=["object", "nested", "mixed", "integer", "double", "base64", "bytes"],
+)
+def test_values_that_no_parameter_can_have(value, type_name, present_type, reason):
+    with pytest.raises(ValueError, match=reason):
+        from_json(value, type_name, present_type)
 
 
 def test_parts_of_services_and_actions_are_written_as_a_file_would_be():

@@ -158,6 +158,7 @@ def test_files_that_vanish_are_a_problem_until_they_are_back(tmp_path):
         shutil.move(away, path)
         source.seek(START + SECOND // 4)
         heard.wait_for(["number 19"])
+        assert source.problem == ""
 
 
 def test_it_takes_no_messages(source):

@@ -125,7 +125,10 @@ def _scalar(value: Any, as_double: bool) -> tuple[int, Any]:
     if as_double and isinstance(value, str) and value in _SPECIAL:
         return _DOUBLE, _SPECIAL[value]
     if isinstance(value, float) or (as_double and isinstance(value, int)):
-        return _DOUBLE, float(value)
+        try:
+            return _DOUBLE, float(value)
+        except OverflowError as error:
+            raise ValueError(f"{value} does not fit into 64 bits") from error
     if isinstance(value, int):
         if not -(2**63) <= value < 2**63:
             raise ValueError(f"{value} does not fit into 64 bits")
