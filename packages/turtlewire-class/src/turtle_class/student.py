@@ -19,8 +19,7 @@ from typing import TYPE_CHECKING, Any
 from turtle_class.bus_link import FarEnd
 from turtle_class.seclusion import give_up_rights
 from turtle_lesson.exercise import start_program
-from turtle_lesson.files import imported
-from turtle_lesson.lesson import Program
+from turtle_lesson.lesson import Program, imported
 from turtle_lesson.mistakes import mistake_of
 from turtlesim.testing.programs import rclpy_in_step
 from turtlesim.testing.stage import Stage

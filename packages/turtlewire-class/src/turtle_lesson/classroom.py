@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
-from turtle_lesson.grading import grade_as_json
+from turtle_lesson import grading
 from turtle_lesson.lesson import load_lesson
 from turtle_lesson.session import LessonSession
 
@@ -34,7 +34,8 @@ def grade(
     Args:
         lesson: Its name.
         files: JSON object of the student's files.
-        tell: Called with each result, as a JSON object.
+        tell: Called with each result, as a JSON object, as soon as it is available.
         alive: Called now and then while the checks run.
     """
-    grade_as_json(load_lesson(_LESSONS / lesson), json.loads(files), tell, alive)
+    for result in grading.grade(load_lesson(_LESSONS / lesson), json.loads(files), alive):
+        tell(json.dumps(result._asdict()))

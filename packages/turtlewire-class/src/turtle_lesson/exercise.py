@@ -12,7 +12,7 @@ from rclpy.node import Node
 from rclpy.time import Time
 from tf2_ros import Buffer, TransformException, TransformListener
 from tf_transformations import euler_from_quaternion
-from turtle_lesson.files import imported
+from turtle_lesson.lesson import imported
 from turtlesim.testing import Simulation
 from turtlesim.testing.programs import ProgramError, rclpy_in_step
 

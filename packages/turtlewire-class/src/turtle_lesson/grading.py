@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
     from turtle_lesson.lesson import Lesson, Program
     from turtlesim.testing import Simulation
 
-__all__ = ["LessonResult", "check_name", "grade", "grade_as_json"]
+__all__ = ["LessonResult", "check_name", "grade"]
 
 
 class LessonResult(NamedTuple):
@@ -71,17 +70,6 @@ def grade(
         yield result
         if not result.passed:
             return
-
-
-def grade_as_json(
-    lesson: Lesson,
-    files: Mapping[str, str],
-    tell: Callable[[str], object],
-    alive: Callable[[], object],
-) -> None:
-    """Run the checks and send the page each result as a JSON object as soon as it is available."""
-    for result in grade(lesson, files, alive):
-        tell(json.dumps(result._asdict()))
 
 
 def _run(

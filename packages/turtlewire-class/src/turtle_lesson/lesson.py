@@ -1,17 +1,20 @@
-"""A lesson: its files, the programs that are started, and its checks."""
+"""A lesson: its programs and checks, and the student's files as modules, imported afresh."""
 
 from __future__ import annotations
 
+import contextlib
 import json
-from collections.abc import Callable, Mapping
+import linecache
+import os
+import re
+import sys
+from collections.abc import Callable, Iterator, Mapping
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from types import MappingProxyType
+from types import MappingProxyType, ModuleType
 from typing import Any, NamedTuple
 
-from turtle_lesson.files import solved
-
-__all__ = ["Lesson", "LessonTurtle", "Program", "load_lesson"]
+__all__ = ["Lesson", "LessonTurtle", "Program", "imported", "load_lesson", "solved"]
 
 #: The tutorial's programs, with which several lessons start.
 _TUTORIAL = Path(__file__).parent / "lessons" / "tutorial"
@@ -92,3 +95,67 @@ def load_lesson(folder: Path) -> Lesson:
     ]
     turtles = [LessonTurtle(**turtle) for turtle in data.get("turtles", ())]
     return Lesson(tuple(data["files"]), tuple(programs), tuple(turtles), folder)
+
+
+@contextlib.contextmanager
+def imported(files: Mapping[str, str]) -> Iterator[dict[str, ModuleType]]:
+    """Run files as modules, in their order; they can import each other until the block ends.
+
+    Args:
+        files: Name to source text.
+
+    Yields:
+        The modules by file name.
+
+    Raises:
+        BaseException: Whatever the code raises.
+    """
+    modules: dict[str, ModuleType] = {}
+    try:
+        for file, source in files.items():
+            # Tracebacks, and inspect, show the lines from here.
+            lines = source.splitlines(keepends=True)
+            linecache.cache[file] = (len(source), None, lines, file)
+            module = ModuleType(os.path.splitext(file)[0])
+            module.__file__ = file
+            modules[file] = sys.modules[module.__name__] = module
+            exec(compile(source, file, "exec"), vars(module))  # noqa: S102 - it is what runs here
+        yield modules
+    finally:
+        for module in modules.values():
+            sys.modules.pop(module.__name__, None)
+
+
+def solved(starter: Mapping[str, str], diff: str) -> dict[str, str]:
+    """Return the files of a lesson with the changes of a unified diff.
+
+    The line numbers of a hunk do not count: its old lines must occur exactly once in the file, so
+    that a change of the first files cannot move the solution to another line unnoticed.
+
+    Args:
+        starter: Source texts by file name.
+        diff: The changes, as ``diff -u`` prints them.
+
+    Raises:
+        ValueError: The old lines of a hunk do not occur exactly once.
+    """
+    files = dict(starter)
+    for file, old, new in _hunks(diff):
+        if (count := files[file].count(old)) != 1:
+            raise ValueError(f"{file} has {count} of these lines, expected 1:\n{old}")
+        files[file] = files[file].replace(old, new)
+    return files
+
+
+def _hunks(diff: str) -> Iterator[tuple[str, str, str]]:
+    """Yield the file, the old and the new lines of each hunk."""
+    for section in re.split(r"^--- .*\n", diff, flags=re.MULTILINE)[1:]:
+        head, *hunks = re.split(r"^@@.*\n", section, flags=re.MULTILINE)
+        file = head.strip().rpartition("/")[2]
+        for hunk in hunks:
+            lines = [line or " " for line in hunk.splitlines()]  # editors strip the last space
+            yield file, _side(lines, "-"), _side(lines, "+")
+
+
+def _side(lines: list[str], sign: str) -> str:
+    return "".join(f"{line[1:]}\n" for line in lines if line[0] in {" ", sign})

@@ -97,7 +97,8 @@ def mistake_of(error: BaseException, files: Collection[str]) -> Mistake:
         file, line = error.filename or "", error.lineno or 0
     else:
         file, line = _place(error, files)
-    hint = str(getattr(error, "hint", "")) or _hint_for(text)
+    known = (hint for pattern, hint in _HINTS if re.search(pattern, text))
+    hint = str(getattr(error, "hint", "")) or next(known, "")
     # The hint is also a note of the error, but the text already ends with it.
     text = re.sub(r"^[\w.]+\.(\w+:)", r"\1", text).removesuffix(hint).strip()
     if isinstance(error, TransformException):
@@ -112,10 +113,3 @@ def _place(error: BaseException, files: Collection[str]) -> tuple[str, int]:
         if frame.filename in files:
             place = (frame.filename, frame.lineno or 0)
     return place
-
-
-def _hint_for(text: str) -> str:
-    for pattern, hint in _HINTS:
-        if re.search(pattern, text):
-            return hint
-    return ""

@@ -1,22 +1,32 @@
-"""A lesson's programs, run step by step for the page."""
+"""A lesson's programs, run step by step for the page, and its panels next to the field."""
 
 from __future__ import annotations
 
 import contextlib
 import json
+from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
+from rclpy.time import Time
+from rosidl_runtime_py import message_to_yaml
+from rosidl_runtime_py.utilities import get_message
+from tf2_ros import Buffer, TransformException, TransformListener
+from tf2_ros.tf2_echo import describe
 from turtle_lesson.exercise import exercise_of
 from turtle_lesson.mistakes import mistake_of
-from turtle_lesson.watch import Doctor, TopicEcho, TransformEcho, topics_of
 from turtlesim.model import TICK_NS
 from turtlesim.picture import FieldPicture, Scene
 from turtlesim.testing import faults
 from turtlesim.transform_view import TransformView, field_frames
+from turtlewire.doctor.examination import report
+from turtlewire.doctor.graph_findings import graph_findings
+from turtlewire.doctor.tf_findings import tf_findings
+from turtlewire.doctor.tf_traffic import TfListener
 
 if TYPE_CHECKING:
+    from rclpy.subscription import Subscription
     from turtle_lesson.lesson import Lesson
     from turtlesim.testing import Simulation
     from turtlesim.testing.faults import Fault
@@ -47,7 +57,7 @@ class LessonSession:
         self._stack = contextlib.ExitStack()
         self._mistake: str | None = None
         self._ticks = self._next_watch = 0
-        self._doctor: Doctor | None = None
+        self._doctor: _Doctor | None = None
         self._doctor_ends = 0
         self._field_frames: tuple[str, list[str]] = ("", [])
         try:
@@ -58,7 +68,7 @@ class LessonSession:
         self._simulation = exercise.simulation
         watcher = self._simulation.start(lambda: Node("watcher"), name="_watcher")
         self._watcher = watcher
-        self._topic_echo, self._transform_echo = TopicEcho(watcher), TransformEcho(watcher)
+        self._topic_echo, self._transform_echo = _TopicEcho(watcher), _TransformEcho(watcher)
         self._transforms = TransformView(
             watcher.context.wire, "/", lambda: round(exercise.simulation.now * 1e9)
         )
@@ -116,7 +126,7 @@ class LessonSession:
 
     def examine(self) -> None:
         """Start the doctor; a later step returns its report."""
-        self._doctor = Doctor(self._watcher)
+        self._doctor = _Doctor(self._watcher)
         self._doctor_ends = self._ticks + _DOCTOR_TICKS
 
     def _texts(self, wanted: dict[str, Any]) -> list[str]:
@@ -142,7 +152,7 @@ class LessonSession:
         echo = {
             "type": "echo",
             "seconds": round(self._ticks * TICK_NS / 1e9, 1),
-            "topics": topics_of(self._watcher),
+            "topics": _topics_of(self._watcher),
             "topic": self._topic_echo.text(wanted.get("topic") or ""),
             "transform": self._transform_echo.text(target, source) if target and source else "",
         }
@@ -185,3 +195,91 @@ class _LessonScreen(FieldPicture):
         """Return the newest poses, and the strokes since the last call."""
         self._position, frame = self.frame_since(self._position)
         return frame
+
+
+_ECHO_OPTIONS = Namespace(precision=3, degrees=False, distance=False)
+_HIDDEN = {"/clock", "/parameter_events", "/rosout"}
+
+
+def _topics_of(node: Node) -> list[str]:
+    """Topics with a publisher, for the list of the page."""
+    return sorted(
+        name
+        for name, _ in node.get_topic_names_and_types()
+        if name not in _HIDDEN and "/_action/" not in name and node.count_publishers(name)
+    )
+
+
+class _TopicEcho:
+    """The newest message of a topic, as ``ros2 topic echo`` prints it.
+
+    Args:
+        node: Subscribes.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._topic = ""
+        self._subscription: Subscription[Any] | None = None
+        self._newest: Any = None
+
+    def text(self, topic: str) -> str:
+        """Return the newest message; empty until one has come."""
+        if topic != self._topic:
+            self._change(topic)
+        return "" if self._newest is None else f"{message_to_yaml(self._newest)}---"
+
+    def _change(self, topic: str) -> None:
+        publishers = self._node.get_publishers_info_by_topic(topic) if topic else []
+        if self._subscription is not None:
+            self._node.destroy_subscription(self._subscription)
+            self._subscription = None
+        self._newest = None
+        self._topic = topic if publishers else ""  # asked for again until a node publishes it
+        if publishers:
+            self._subscription = self._node.create_subscription(
+                get_message(publishers[0].topic_type),
+                topic,
+                self._take,
+                publishers[0].qos_profile,
+            )
+
+    def _take(self, message: Any) -> None:
+        self._newest = message
+
+
+class _TransformEcho:
+    """A transform as ``tf2_echo`` prints it.
+
+    Args:
+        node: Listens.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._buffer = Buffer(node=node)
+        self._listener = TransformListener(self._buffer, node)
+
+    def text(self, target: str, source: str) -> str:
+        """Return the newest transform, or the error with its hint."""
+        try:
+            return describe(self._buffer.lookup_transform(target, source, Time()), _ECHO_OPTIONS)
+        except TransformException as error:
+            return f"{error}\n{error.hint}".strip()
+
+
+class _Doctor:
+    """Listens to the transforms from now on, for a report of ``turtlewire doctor``.
+
+    Args:
+        node: A node of the graph that is examined.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._wire = node.context.wire
+        self._listener = TfListener(self._wire)
+
+    def report(self) -> str:
+        """Stop listening and say what is wrong."""
+        traffic = self._listener.close()
+        graph = self._wire.graph
+        return report([*graph_findings(graph), *tf_findings(graph, traffic)])
