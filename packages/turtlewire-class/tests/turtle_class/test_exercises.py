@@ -1,4 +1,4 @@
-"""The checks of the exercises that are no lessons: solutions pass, typical mistakes do not."""
+"""The checks of all exercises: solutions pass, first files and typical mistakes do not."""
 
 import re
 
@@ -10,12 +10,10 @@ from turtle_lesson.grading import grade
 from turtle_lesson.lesson import load_lesson
 from turtlewire.cli.main import main
 
-from .wrong_answers import WRONG_ANSWERS
-
-OWN = [each for each in exercises() if each.folder.parent.name == "exercises"]
+from ..turtle_lesson.wrong_answers import WRONG_ANSWERS
 
 
-@pytest.mark.parametrize("exercise", OWN, ids=lambda exercise: exercise.name)
+@pytest.mark.parametrize("exercise", exercises(), ids=lambda exercise: exercise.name)
 def test_the_solution_passes_and_the_first_files_do_not(exercise):
     lesson = load_lesson(exercise.folder)
     results = list(grade(lesson, lesson.solution()))
@@ -38,7 +36,7 @@ def test_a_typical_mistake_gets_its_hint(wrong):
 
 def test_there_are_eight_exercises_with_three_typical_mistakes_each():
     assert len(exercises()) >= 8
-    for exercise in OWN:  # those of the lessons are counted beside their tests
+    for exercise in exercises():
         assert sum(wrong.exercise == exercise.name for wrong in WRONG_ANSWERS) >= 3, exercise.name
 
 

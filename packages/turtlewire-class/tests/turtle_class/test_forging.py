@@ -26,26 +26,9 @@ NAMES = [
     "The carrot stays there while turtle1 drives and turns",
     "Turtle2 comes to the carrot",
 ]
-FORGED = (
-    "".join(
-        json.dumps(
-            {
-                "result": {
-                    "check": name,
-                    "passed": True,
-                    "text": "",
-                    "hint": "",
-                    "file": "",
-                    "line": 0,
-                }
-            }
-        )
-        + "\n"
-        for name in NAMES
-    )
-    + json.dumps({"end": True})
-    + "\n"
-)
+UNTOLD = {"text": "", "hint": "", "file": "", "line": 0}
+FACTS = [*({"result": {"check": name, "passed": True, **UNTOLD}} for name in NAMES), {"end": True}]
+FORGED = "".join(f"{json.dumps(fact)}\n" for fact in FACTS)
 
 PRELUDE = f"""
 import contextlib, ctypes, glob, os, sys
@@ -174,9 +157,8 @@ for pid, _ in graders():
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux has /proc and capabilities")
 def test_the_processes_of_the_graders_are_closed(tmp_path):
     (tmp_path / FILE).write_text(PRELUDE + PEEK + silly("solved"), encoding="utf-8")
-    outcome = grade_all([tmp_path.parent], [CARROT._replace(name=tmp_path.name)], PATIENT)[
-        0
-    ].outcomes[0]
+    [report] = grade_all([tmp_path.parent], [CARROT._replace(name=tmp_path.name)], PATIENT)
+    [outcome] = report.outcomes
     assert outcome.passed, outcome
     assert outcome.log.count("graders seen") >= 2
     assert "worked" not in outcome.log

@@ -10,6 +10,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
+from tests.places import TURTLEWIRE
 
 from turtle_class import runner, supervise
 from turtle_class.catalogue import chosen
@@ -145,20 +146,31 @@ os.write(1, b"begun\\n")
 """
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
+ON_LINUX = pytest.mark.skipif(
+    sys.platform != "linux", reason="only Linux gives orphans to another process"
+)
+SUPERVISE = ["-I", supervise.__file__]
+
+
+def supervised(code, seconds=60, by=SUPERVISE):
+    """Start code below a supervisor; `by` are Python's words for the supervisor's script."""
+    limits = [str(seconds), str(2 << 30)] if by is SUPERVISE else []
+    return subprocess.Popen(
+        [sys.executable, *by, *limits, sys.executable, "-c", code],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+
+
+@ON_LINUX
 @pytest.mark.parametrize(
     ("then", "seconds", "status"),
     [("os._exit(3)", 60, 3), ("time.sleep(1e6)", 15, supervise.TIME_IS_OVER)],
     ids=["ends", "time"],
 )
 def test_processes_in_the_background_are_ended(then, seconds, status):
-    command = [sys.executable, "-c", BACKGROUND.format(then=then)]
-    with subprocess.Popen(
-        [sys.executable, "-I", supervise.__file__, str(seconds), str(2 << 30), *command],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as child:
+    with supervised(BACKGROUND.format(then=then), seconds) as child:
         told = child.stdout.read()  # ends when no process holds the pipe any more
         assert child.wait(60) == status
     assert "begun" in told
@@ -175,23 +187,9 @@ if os.fork() == 0:
 """
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
+@ON_LINUX
 def test_a_process_that_runs_away_is_ended():
-    with subprocess.Popen(
-        [
-            sys.executable,
-            "-I",
-            supervise.__file__,
-            "60",
-            str(2 << 30),
-            sys.executable,
-            "-c",
-            RUNAWAY,
-        ],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as child:
+    with supervised(RUNAWAY) as child:
         assert child.stdout.read() == "begun\n"  # ends when no process holds the pipe any more
         assert child.wait(60) == 0
 
@@ -206,30 +204,18 @@ sys.exit(supervise.supervise(60, 2 << 30, sys.argv[1:]))
 """
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
+@ON_LINUX
 def test_processes_that_the_first_search_missed_are_ended():
     then = "import signal; signal.alarm(2); signal.pause()"  # by then all of them have begun
-    command = [sys.executable, "-c", BACKGROUND.format(then=then)]
-    with subprocess.Popen(
-        [sys.executable, "-c", SEARCH_THAT_MISSES, *command],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as child:
+    with supervised(BACKGROUND.format(then=then), by=["-c", SEARCH_THAT_MISSES]) as child:
         told = child.stdout.read()  # ends when no process holds the pipe any more
         assert child.wait(60) != supervise.TIME_IS_OVER
     assert "begun" in told
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux gives orphans to another process")
-def test_they_end_with_the_grader(tmp_path):
-    command = [sys.executable, "-c", BACKGROUND.format(then="time.sleep(1e6)")]
-    with subprocess.Popen(
-        [sys.executable, "-I", supervise.__file__, "600", str(2 << 30), *command],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as child:
+@ON_LINUX
+def test_they_end_with_the_grader():
+    with supervised(BACKGROUND.format(then="time.sleep(1e6)"), 600) as child:
         lines = [child.stdout.readline() for _ in range(4)]
         child.stdin.close()
         rest = child.stdout.read()  # ends when no process holds the pipe any more
@@ -330,11 +316,8 @@ def test_wrong_words_are_answered(tmp_path, monkeypatch, capsys, words, told):
 @pytest.mark.parametrize("thread", ["main", "another"])
 def test_ctrl_c_ends_grading_and_all_that_runs(submissions, tmp_path, thread):
     folder = submissions({"waits": silly("waits")})
-    program = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
-    command = ["class", "grade", str(folder), "-e", "fixed_carrot", "-o", str(tmp_path / "out")]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    started = [sys.executable, "-c", program, *command]
-    with subprocess.Popen(started, env=environment) as grader:
+    command = ["class", "grade", folder, "-e", "fixed_carrot", "-o", tmp_path / "out"]
+    with subprocess.Popen([TURTLEWIRE, *command]) as grader:
         child = wait_for_child(grader.pid)
         handle = os.pidfd_open(child)
         threads = [grader.pid]
@@ -360,10 +343,7 @@ def test_the_list(capsys):
     assert main(["class", "list"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 11
-    assert json.dumps(lines[0]).startswith('"static ')
-
-
-def test_the_list_as_json(capsys):
+    assert lines[0].startswith("static ")
     assert main(["class", "list", "--json"]) == 0
     listed = json.loads(capsys.readouterr().out)["exercises"]
     assert len(listed) == 11

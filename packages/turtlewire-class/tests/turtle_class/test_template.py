@@ -7,12 +7,11 @@ import json
 import os
 import shutil
 import subprocess
-import sys
 
 import pytest
 import yaml
 from tests.how_to import blocks_of
-from tests.places import EXAMPLES, HOW_TO, ROS2
+from tests.places import BIN, EXAMPLES, HOW_TO, TURTLEWIRE
 
 from turtle_class.catalogue import exercises
 from turtle_class.roster import read_roster
@@ -35,13 +34,9 @@ def repository(tmp_path):
     assert main(["class", "start", str(folder)]) == 0
     (static,) = [exercise for exercise in exercises() if exercise.name == "static"]
     solve(static, folder / "static")
-    commands = folder / ".venv" / "bin"  # what `./install` makes; tests/classroom/test_bundle.py
+    commands = folder / ".venv" / "bin"  # what `./install` makes, see test_bundle.py
     commands.mkdir(parents=True)
-    program = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
-    (commands / "turtlewire").write_text(
-        f'#!/bin/sh\nexec "{sys.executable}" -c "{program}" "$@"\n'
-    )
-    (commands / "turtlewire").chmod(0o755)
+    (commands / "turtlewire").symlink_to(TURTLEWIRE)
     return folder
 
 
@@ -50,7 +45,7 @@ def sh(command, folder, **environment):
     return subprocess.run(
         ["bash", "-e", "-c", command],
         cwd=folder,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **environment},
+        env={**os.environ, **environment},
         capture_output=True,
         text=True,
         check=False,
@@ -96,11 +91,9 @@ def test_the_container_is_json_and_installs():
 
 
 PAGE = (HOW_TO / "classroom.md").read_text(encoding="utf-8")
-PROGRAM = "import sys; from turtlewire.cli.main import main; sys.exit(main())"
 
 
-def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(sys.path))
+def test_the_page_does_what_it_says(run, tmp_path):
     shutil.copytree(EXAMPLES, tmp_path / "examples")
     (tmp_path / "roster.csv").write_text(blocks_of(PAGE, "text")[0], encoding="utf-8")
     assert [seat.name for seat in read_roster(tmp_path / "roster.csv")] == ["Ana", "Björn"]
@@ -121,19 +114,20 @@ def do(run, line, folder):
         subprocess.run(words, cwd=folder, check=True)
         return
     if "--domains" in words or "--roster" in words:
-        program = run(sys.executable, "-c", PROGRAM, *words[1:], "--port", "0", cwd=folder)
+        program = run(BIN / words[0], *words[1:], "--port", "0", cwd=folder)
         program.wait_for(r"^The class of \d+ is at http://127\.0\.0\.1:\d+/ ")
         program.kill()
         return
     if words[0] == "ros2":
-        ros2 = ROS2
-        program = run(ros2, *words[1:], cwd=folder, environment={"TURTLEWIRE_BROWSER": "0"})
+        program = run(
+            BIN / words[0], *words[1:], cwd=folder, environment={"TURTLEWIRE_BROWSER": "0"}
+        )
         program.wait_for("static_frame_broadcaster|python-\\d.: process started")
         program.kill()
         return
     # The first files are not solved yet; one exercise shows that grading runs.
     some = ["-e", "static"] if "grade" in words else []
-    program = run(sys.executable, "-c", PROGRAM, *words[1:], *some, cwd=folder)
+    program = run(BIN / words[0], *words[1:], *some, cwd=folder)
     assert program.wait() == (1 if "check" in words else 0), program.text
 
 

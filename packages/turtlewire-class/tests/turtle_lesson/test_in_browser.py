@@ -13,8 +13,7 @@ from tests.plain_server import LONG_MS, Host
 
 from turtle_lesson.lesson import load_lesson
 
-from .conftest import wait_until_loaded
-from .firefox import Firefox
+from .conftest import Firefox, wait_until_loaded
 from .wrong_answers import WRONG_ANSWERS
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
@@ -105,7 +104,7 @@ def test_offline_a_lesson_is_solved_and_typical_mistakes_get_their_hint(offline_
     assert all(passed == "yes" for passed, _ in results), results
     assert page.is_visible("#verdict")
     assert page.locator("#lessons a[aria-current]").get_attribute("data-solved") == "yes"
-    for wrong in [wrong for wrong in WRONG_ANSWERS if wrong.lesson == name]:
+    for wrong in [wrong for wrong in WRONG_ANSWERS if wrong.exercise == name]:
         hand_in(page, name, wrong.files(lesson))
         passed, text = check(page)[-1]
         assert passed == "no", wrong
