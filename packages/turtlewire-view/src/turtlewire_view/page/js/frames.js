@@ -1,6 +1,9 @@
 // The data of all frames: names, parents, poses and ages.
 // How long ago each frame's stamp changed, as RViz counts it, and how it fades.
+// Which frames the user does not want to see.
 // Places trees that are not connected to the fixed frame in a row next to it.
+
+import { byId, setText } from "../kit/dom.js";
 
 export const TIMEOUT_SECONDS = 15;
 
@@ -236,5 +239,44 @@ export class Frames {
     const found = [];
     for (let at = k; at >= 0 && !found.includes(at); at = this.parents[at]) found.push(at);
     return found;
+  }
+}
+
+/** Frames are hidden by a regular expression, or one by one. */
+export class Hiding {
+  #pattern = null;
+  #chosen = new Map(); // name to hidden or not: stronger than the pattern
+  #onChange;
+
+  /** `onChange()`: apply to the frames again. */
+  constructor(onChange) {
+    this.#onChange = onChange;
+    byId("hide").addEventListener("input", ({ target }) => this.#take(target.value));
+  }
+
+  /** Hide or show one frame. */
+  set(name, hidden) {
+    this.#chosen.set(name, hidden);
+    this.#onChange();
+  }
+
+  /** Write `frames.hidden`. */
+  apply(frames) {
+    frames.names.forEach((name, k) => {
+      frames.hidden[k] = (this.#chosen.get(name) ?? this.#pattern?.test(name) ?? false) ? 1 : 0;
+    });
+  }
+
+  #take(text) {
+    let problem = "";
+    try {
+      this.#pattern = text ? new RegExp(text) : null;
+    } catch (error) {
+      problem = `${error.message}.`;
+    }
+    byId("hide").setAttribute("aria-invalid", String(problem !== ""));
+    byId("hide-problem").hidden = problem === "";
+    setText(byId("hide-problem"), problem);
+    if (!problem) this.#onChange();
   }
 }

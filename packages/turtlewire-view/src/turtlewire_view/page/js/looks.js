@@ -1,7 +1,11 @@
-// The buttons on the picture: cameras, and what is drawn.
+// The buttons on the picture: cameras, what is drawn, and views as .rviz files, which the browser
+// saves, the user chooses, and the server reads and writes.
 
 import { byId, setText } from "../kit/dom.js";
 import { download } from "../kit/download.js";
+
+const SWITCHES = ["names", "axes", "arrows", "grid"];
+const LARGEST_FILE = 60_000; // bytes of a command that the server takes
 
 /**
  * Wire the buttons to the stage; `selected()` is the selected frame's name. Returns `show()`, which
@@ -48,4 +52,41 @@ function listenForSwitches(stage) {
 
 function setPressed(button, on) {
   button.setAttribute("aria-pressed", String(on));
+}
+
+/**
+ * Wire the buttons. `view()` is { fixed, displays, document, camera }; `say(text)` tells the user.
+ */
+export function listenForFiles(view, send, say) {
+  byId("save-view").onclick = () => {
+    const { fixed, displays: list, document, camera } = view();
+    const displays = list.map(({ kind, topic, options, visible, place }) => {
+      return { kind, topic, options, visible, place };
+    });
+    const show = Object.fromEntries(SWITCHES.map((name) => [name, byId(`show-${name}`).checked]));
+    send({ type: "save", fixed, document, displays, show, camera });
+  };
+  byId("load-view").onclick = () => byId("view-file").click();
+  byId("view-file").onchange = async ({ target }) => {
+    const [file] = target.files;
+    target.value = ""; // the same file can be chosen again
+    if (!file) return;
+    if (file.size > LARGEST_FILE) say(`${file.name} is too large for a .rviz file.`);
+    else send({ type: "load", text: await file.text() });
+  };
+}
+
+/** The server has written the file. */
+export function takeSaved({ text }) {
+  download(new Blob([text], { type: "application/yaml" }), "view", "rviz");
+}
+
+/** Set the switches of what is drawn. */
+export function applySwitches(show = {}) {
+  for (const name of SWITCHES) {
+    const input = byId(`show-${name}`);
+    if (show[name] === undefined || input.checked === show[name]) continue;
+    input.checked = show[name];
+    input.dispatchEvent(new Event("change"));
+  }
 }

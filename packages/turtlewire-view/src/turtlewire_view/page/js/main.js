@@ -5,21 +5,18 @@ import { byId, setText } from "../kit/dom.js";
 import { switchLetterKeys } from "../kit/letter_keys.js";
 import { byName } from "../kit/names.js";
 import { Budget } from "./budget.js";
-import { Displays } from "./displays.js";
+import { Displays, Robots } from "./displays.js";
 import { DisplaysPanel } from "./displays_panel.js";
 import { closeFirst, offer } from "./dom.js";
-import { Frames } from "./frames.js";
-import { Hiding } from "./hiding.js";
+import { Frames, Hiding } from "./frames.js";
 import { JointsPanel } from "./joints_panel.js";
-import { listenForLooks } from "./looks.js";
+import { applySwitches, listenForFiles, listenForLooks, takeSaved } from "./looks.js";
 import { RelationPanel } from "./relation_panel.js";
-import { Robots } from "./robots.js";
 import { Stage } from "./stage.js";
 import { TimeBar } from "./time_bar.js";
 import { Tools } from "./tools.js";
 import { TreeView } from "./tree_view.js";
 import { graphicsLoaded, View } from "./scene.js";
-import { applySwitches, listenForFiles, takeSaved } from "./view_file.js";
 
 const NOTICE_MS = 6000;
 /** Where keys are for the control itself: all of them, or the space bar. */

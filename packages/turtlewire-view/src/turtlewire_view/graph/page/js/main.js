@@ -4,11 +4,10 @@ import { Connection } from "../kit/connection.js";
 import { byId, make, setText } from "../kit/dom.js";
 import { switchLetterKeys } from "../kit/letter_keys.js";
 import { Camera } from "./camera.js";
-import { Details, mismatchInWords } from "./details.js";
+import { count, Details, mismatchInWords, rateInWords } from "./details.js";
 import { Drawing } from "./drawing.js";
 import { GraphModel, keyOf, partsOf } from "./graph_model.js";
 import { NamesList } from "./names_list.js";
-import { count, rateInWords } from "./words.js";
 
 const NOTICE_MS = 6000;
 const FILTER_MS = 250;
