@@ -464,9 +464,10 @@ RViz's Effort draws revolute joints at the stamp of the message
   view/test_efforts.py test_efforts_are_shares_of_the_greatest_ones
   view/test_efforts.py test_efforts_follow_their_joints_and_earlier_ones_stay
 RViz's Camera can leave out each display (`Visibility`)
-  view/test_cameras.py test_a_camera_of_a_file
+  view/test_rviz_file.py test_a_display_of_a_file
 RViz's DepthCloud pairs images by stamps within a queue, reads compressed ones, and can fill what is hidden
-  view/test_depth_clouds.py test_a_slow_colour_image_delays_no_points test_a_depth_cloud_of_a_file
+  view/test_depth_clouds.py test_a_slow_colour_image_delays_no_points
+  view/test_rviz_file.py test_a_display_of_a_file
 RViz's interactive markers may start programs, and hold shapes of any frame
   view/test_interactive_pictures.py test_a_menu_opens_by_the_right_button
   view/test_interactive_markers.py test_a_wrong_control_is_named test_too_many_controls_and_menu_entries_are_cut
@@ -475,7 +476,7 @@ RViz uses the transforms at both ends of a scan and interpolates the beams
 RViz draws all points of the `Decay Time`
   view/test_feed_order.py test_points_that_stay_share_the_budget
 RViz's RobotModel reads a topic or a file
-  view/test_display_panel.py test_a_robot_of_a_parameter_and_its_links
+  view/test_tools_and_files.py test_a_robot_of_a_parameter_and_its_links
 RViz uses the default for an invalid value in a `.rviz` file
   view/test_rviz_file.py test_wrong_values_of_a_file_are_named
 RViz subscribes with the QoS that its display is set to

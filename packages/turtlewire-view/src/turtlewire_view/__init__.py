@@ -16,9 +16,8 @@ module              contents
 `live`              `LiveSource`: the network
 `bag_source`        `BagSource`: a bag with its own time
 `buffer_source`     `BufferSource`, `RobotSource`: a buffer of the program; a robot with joints
-`named_robots`      the robot of a path, or of a name of ``robot_descriptions``
+`robots`            the robot of a path or name, and its joints that pages move
 `service_watch`     calls a service when its server appears; reads a parameter of a node
-`interactive_feedback`  feedback on interactive markers, as messages
 `frames`            `FrameScene`: all poses in one frame, at one time, as one array; their reference
 `tree`              the rows of the tree; the pose of one frame in another, also as a sentence
 `display_feed`      a display of a page: waits for transforms, makes packets
@@ -26,7 +25,7 @@ module              contents
 `meshes`            meshes of packages: addresses to URLs, URLs to files
 `package_folders`   finds packages: named by the user, around a URDF, in the ament index
 `page_commands`     the commands of the page
-`page_requests`     publish with a tool, save a view
+`page_requests`     publish with a tool, give feedback on interactive markers, save a view
 `rviz_file`         views of ``.rviz`` files, with their camera
 `rviz_writing`      views as ``.rviz`` files
 `rviz_options`      options of RViz's displays and of the page's

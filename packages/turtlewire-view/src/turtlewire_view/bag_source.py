@@ -15,7 +15,7 @@ from turtlewire.bag.playback import PlayClock, ReadAhead
 from turtlewire.errors import BagError
 from turtlewire.tf.buffer import Buffer
 from turtlewire_view.live import MAX_FRAMES, frames_left_out, stamp_range_ns
-from turtlewire_view.source import Joints, OfflineSource, TimelineState, Topic
+from turtlewire_view.source import OfflineSource, TimelineState, Topic
 
 __all__ = ["BagSource", "StampsOfLog"]
 
@@ -42,7 +42,7 @@ class BagSource(OfflineSource):
 
     kind = "bag"
     _WHAT = "a bag"
-    joints: Joints | None = None
+    joints = None
 
     def __init__(
         self, path: str | os.PathLike[str], *, max_frames: int | None = MAX_FRAMES

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import math
-import threading
 import time
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from turtlewire import msg
 from turtlewire.errors import TurtlewireError
-from turtlewire.terminal.suggestion import did_you_mean
-from turtlewire.urdf.joints import followers_of
-from turtlewire.web.commands import is_finite_number
 from turtlewire_view.live import LiveTimeline, newest_stamp_ns
-from turtlewire_view.source import Joints, OfflineSource, Topic
+from turtlewire_view.robots import RobotJoints, zero_of
+from turtlewire_view.source import OfflineSource, Topic
 
 if TYPE_CHECKING:
     from turtlewire.msg import Message
@@ -26,7 +22,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BufferSource",
-    "RobotJoints",
     "RobotSource",
 ]
 
@@ -45,7 +40,7 @@ class BufferSource(OfflineSource):
 
     kind = "live"
     _WHAT = "a buffer"
-    joints: Joints | None = None
+    joints: RobotJoints | None = None
     problem = ""
     history_ns = _ALL_NS
 
@@ -125,91 +120,6 @@ class RobotSource(BufferSource):
         self.joints = RobotJoints(robot, start, buffer)
 
 
-class RobotJoints:
-    """The joints of a robot; all pages share them. Thread-safe.
-
-    Args:
-        robot: The robot.
-        positions: The position of each free joint [rad or m].
-        buffer: Has the transforms of all links, and gets new ones.
-    """
-
-    def __init__(self, robot: Robot, positions: dict[str, float], buffer: Buffer) -> None:
-        self._robot = robot
-        self._positions = positions
-        self._buffer = buffer
-        self._lock = threading.Lock()
-        self._followers = followers_of(robot)
-        self._moving = [each for each in robot.joints.values() if each.moves]
-
-    def description(self) -> list[dict[str, Any]]:
-        """Return name, kind, limits and formula of each joint, in the order of the file."""
-        return [self._describe(each.name, each.type) for each in self._moving]
-
-    def positions(self) -> list[float]:
-        """Return where the joints of :meth:`description` are [rad or m]."""
-        with self._lock:
-            return [self._position(each.name) for each in self._moving]
-
-    def move(self, positions: Mapping[str, Any]) -> None:
-        """Move joints, within their limits.
-
-        Args:
-            positions: Positions of free joints by name [rad or m].
-
-        Raises:
-            ValueError: The robot has no such joint, or a position is not a finite number.
-        """
-        for name, position in positions.items():
-            if name not in self._positions:
-                near = did_you_mean(name, self._positions)
-                raise ValueError(f"the robot has no free joint {name!r:.100}. {near}".rstrip())
-            if not is_finite_number(position):
-                raise ValueError(
-                    f"the position of {name!r} must be a number, got {position!r:.100}"
-                )
-        with self._lock:
-            for name, position in positions.items():
-                low, high = _limits(self._robot, name)
-                self._positions[name] = min(max(float(position), low), high)
-            self._write()
-
-    def _write(self) -> None:
-        moved = self._robot.transforms(self._positions)
-        for joint in self._moving:
-            link = moved.lookup_transform(joint.parent, joint.child)
-            self._buffer.set_static_transform(
-                joint.parent, joint.child, link.translation, link.rotation
-            )
-
-    def _position(self, name: str) -> float:
-        follower = self._followers.get(name)
-        if follower is None:
-            return self._positions[name]
-        return self._positions[follower.leader] * follower.multiplier + follower.offset
-
-    def _describe(self, name: str, kind: str) -> dict[str, Any]:
-        follower = self._followers.get(name)
-        if follower is not None:
-            formula = {
-                "parent": follower.leader,
-                "factor": follower.multiplier,
-                "offset": follower.offset,
-            }
-            return {"name": name, "kind": kind, "mimic": formula}
-        low, high = _limits(self._robot, name)
-        limits = self._robot.joints[name].limits
-        return {
-            "name": name,
-            "kind": kind,
-            "mimic": None,
-            "minimum": low,
-            "maximum": high,
-            "zero": _zero(self._robot, name),
-            "max_velocity": limits.velocity if limits and math.isfinite(limits.velocity) else None,
-        }
-
-
 def _start_of(robot: Robot, positions: Positions) -> dict[str, float]:
     """Return a position of each free joint."""
     rows = len(robot.within_limits(positions))
@@ -218,21 +128,9 @@ def _start_of(robot: Robot, positions: Positions) -> dict[str, float]:
             f"show draws a robot at one position of each joint, and got {rows}; for several, pass "
             "the buffer robot.transforms(positions, stamps)"
         )
-    start = {name: _zero(robot, name) for name in robot.joint_names}
+    start = {name: zero_of(robot, name) for name in robot.joint_names}
     if isinstance(positions, Mapping):
         given = {name: np.ravel(value)[0] for name, value in positions.items()}
     else:
         given = dict(zip(robot.joint_names, np.ravel(positions), strict=True))
     return start | {name: float(value) for name, value in given.items()}
-
-
-def _limits(robot: Robot, name: str) -> tuple[float, float]:
-    """Return the least and the greatest position; a continuous joint makes one turn."""
-    column = robot.joint_names.index(name)
-    low, high = float(robot.lower[column]), float(robot.upper[column])
-    return (low, high) if math.isfinite(low) and math.isfinite(high) else (-math.pi, math.pi)
-
-
-def _zero(robot: Robot, name: str) -> float:
-    low, high = _limits(robot, name)
-    return 0.0 if low <= 0.0 <= high else (low + high) / 2

@@ -120,7 +120,9 @@ def _foxglove(args: argparse.Namespace) -> int:
                 context, node, options, _Log(), lambda name: named.get(name) or share_folder(name)
             )
             stack.callback(server.close)
-            _say_where(server.url, options)
+            print(f"Foxglove and Lichtblick connect to {server.url} (Ctrl-C ends)", flush=True)
+            if not options.is_local:
+                print(options.warning, flush=True)
             ended.wait()
     except WireError as error:
         print(f"turtlewire foxglove: {error.in_one_line()}", file=sys.stderr)
@@ -153,12 +155,6 @@ def _options(args: argparse.Namespace) -> BridgeOptions:
         capabilities=capabilities,
         origins=tuple(args.origin),
     )
-
-
-def _say_where(url: str, options: BridgeOptions) -> None:
-    print(f"Foxglove and Lichtblick connect to {url} (Ctrl-C ends)", flush=True)
-    if not options.is_local:
-        print(options.warning, flush=True)
 
 
 class _Log:

@@ -21,7 +21,6 @@ from turtlewire.wire.names import validate_namespace
 from turtlewire.wire.qos import Durability, QoS, Reliability, fit_subscription
 from turtlewire_view.service_watch import ParameterWatch, ServiceWatch
 from turtlewire_view.source import (
-    Joints,
     ParameterAnswer,
     ServiceAnswer,
     ServiceCalls,
@@ -71,7 +70,7 @@ class LiveSource:
     """
 
     kind = "live"
-    joints: Joints | None = None
+    joints = None
 
     def __init__(
         self,

@@ -88,7 +88,8 @@ def camera_from(views: object) -> Camera | None:
         return None
     point = _mapping(current.get("Focal Point"))
     camera["focus"] = [_number(point, axis, 0.0) for axis in "XYZ"]
-    camera["distance"] = _bounded(_number(current, "Distance", _DISTANCE))
+    distance = _number(current, "Distance", _DISTANCE)
+    camera["distance"] = min(max(distance, _NEAREST_M), _FARTHEST_M)
     camera["yaw"] = _number(current, "Yaw", _ANGLE)
     camera["pitch"] = _number(current, "Pitch", _ANGLE)
     return camera
@@ -130,10 +131,6 @@ def is_camera(value: object) -> bool:
 def _number(properties: Mapping[str, Any], word: str, default: float) -> float:
     value = properties.get(word, default)
     return float(value) if is_finite_number(value) and abs(value) < _FARTHEST_M else default
-
-
-def _bounded(distance: float) -> float:
-    return min(max(distance, _NEAREST_M), _FARTHEST_M)
 
 
 def _mapping(value: object) -> dict[str, Any]:

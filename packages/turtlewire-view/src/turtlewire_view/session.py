@@ -14,8 +14,7 @@ from turtlewire_view import page_commands
 from turtlewire_view.displays import displays_of
 from turtlewire_view.displays.options import OptionError
 from turtlewire_view.frames import Base, FrameScene
-from turtlewire_view.interactive_feedback import feedback_message
-from turtlewire_view.page_requests import message_of_tool, text_of_view
+from turtlewire_view.page_requests import feedback_message, message_of_tool, text_of_view
 from turtlewire_view.rviz_file import RvizFileError, read_rviz
 from turtlewire_view.tree import TreeTable, missing_frame, path_between, relation
 

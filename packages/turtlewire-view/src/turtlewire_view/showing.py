@@ -18,9 +18,9 @@ from turtlewire.web.desktop import open_browser
 from turtlewire_view.bag_source import BagSource
 from turtlewire_view.buffer_source import BufferSource, RobotSource
 from turtlewire_view.live import LiveSource
-from turtlewire_view.named_robots import find_robot
 from turtlewire_view.notebook import find_frame
 from turtlewire_view.package_folders import PackageFolders
+from turtlewire_view.robots import find_robot
 from turtlewire_view.rviz_file import load_rviz
 from turtlewire_view.viewer import Viewer
 

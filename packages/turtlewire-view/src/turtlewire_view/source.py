@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from turtlewire.tf.buffer import Buffer
+    from turtlewire_view.robots import RobotJoints
 
 __all__ = [
-    "Joints",
     "OfflineSource",
     "ParameterAnswer",
     "ServiceAnswer",
@@ -126,29 +126,6 @@ class TimelineState(NamedTuple):
     simulated: bool
 
 
-class Joints(Protocol):
-    """The joints of a robot; all pages share them. Thread-safe."""
-
-    def description(self) -> list[dict[str, Any]]:
-        """Return name, kind, limits and formula of each joint, in the order of the file."""
-        ...
-
-    def positions(self) -> list[float]:
-        """Return where the joints of :meth:`description` are [rad or m]."""
-        ...
-
-    def move(self, positions: Mapping[str, Any]) -> None:
-        """Move joints, within their limits.
-
-        Args:
-            positions: Positions of free joints by name [rad or m].
-
-        Raises:
-            ValueError: The robot has no such joint, or a position is not a finite number.
-        """
-        ...
-
-
 class Timeline(Protocol):
     """The time that a page shows, and the frames then. Thread-safe."""
 
@@ -188,12 +165,15 @@ class Source(Protocol):
     Attributes:
         kind: ``live`` or ``bag``.
         name: What the page calls it.
-        joints: The joints that pages can move, or None.
     """
 
     kind: str
     name: str
-    joints: Joints | None
+
+    @property
+    def joints(self) -> RobotJoints | None:
+        """The joints that pages can move, or None."""
+        ...
 
     @property
     def problem(self) -> str:

@@ -98,8 +98,8 @@ def _view(args: argparse.Namespace) -> int:
 
 def _source(args: argparse.Namespace) -> tuple[Source, PackageFolders]:
     from turtlewire.tf.tf_topics import TfTopics
-    from turtlewire_view.named_robots import find_robot
     from turtlewire_view.package_folders import PackageFolders
+    from turtlewire_view.robots import find_robot
 
     what: str | None = args.what
     topics = TfTopics(args.topic, args.static_topic)

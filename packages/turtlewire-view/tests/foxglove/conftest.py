@@ -13,7 +13,7 @@ from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from turtlewire import msg, wire
-from turtlewire.wire.base import TypeId
+from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import QoS
 from turtlewire_view.foxglove import BridgeOptions, FoxgloveServer
 
@@ -58,8 +58,10 @@ class Client:
                 return frame
             self.frames.append(frame)
 
-    def next(self, op):
-        return self.next_frame(lambda frame: isinstance(frame, dict) and frame["op"] == op)
+    def next(self, op, matches=lambda frame: True):
+        return self.next_frame(
+            lambda frame: isinstance(frame, dict) and frame["op"] == op and matches(frame)
+        )
 
     def next_binary(self, operation):
         return self.next_frame(lambda frame: isinstance(frame, bytes) and frame[0] == operation)
@@ -70,29 +72,23 @@ class Client:
 
     def channel(self, topic):
         """The channel of a topic, as soon as it is advertised."""
-
-        def has_it(frame):
-            return (
-                isinstance(frame, dict)
-                and frame["op"] == "advertise"
-                and any(channel["topic"] == topic for channel in frame["channels"])
-            )
-
-        frame = self.next_frame(has_it)
-        self.frames.append(frame)
-        return next(channel for channel in frame["channels"] if channel["topic"] == topic)
+        return self._advertised("advertise", "channels", "topic", topic)
 
     def service(self, name):
-        def has_it(frame):
-            return (
-                isinstance(frame, dict)
-                and frame["op"] == "advertiseServices"
-                and any(service["name"] == name for service in frame["services"])
-            )
+        return self._advertised("advertiseServices", "services", "name", name)
 
-        frame = self.next_frame(has_it)
+    def _advertised(self, op, kind, key, name):
+        def named(frame):
+            return [each for each in frame[kind] if each[key] == name]
+
+        frame = self.next(op, named)
         self.frames.append(frame)
-        return next(service for service in frame["services"] if service["name"] == name)
+        return named(frame)[0]
+
+    def publish_on(self, topic):
+        """Advertise channel 1, of texts as JSON."""
+        channel = {"id": 1, "topic": topic, "encoding": "json", "schemaName": "std_msgs/String"}
+        self.send("advertise", channels=[channel])
 
     def subscribe(self, topic, number):
         self.send(
@@ -116,13 +112,7 @@ class Client:
     def sync(self):
         """Return when the server has done all that was asked before."""
         self.send("sync?")
-        self.next_frame(
-            lambda frame: (
-                isinstance(frame, dict)
-                and frame["op"] == "status"
-                and "'sync?'" in frame["message"]
-            )
-        )
+        self.next("status", lambda frame: "'sync?'" in frame["message"])
 
 
 def type_id(name):
@@ -139,6 +129,12 @@ class Robot:
 
     def publisher(self, topic, type_name="std_msgs/msg/String", node=None, **qos):
         return (node or self.node).create_publisher(topic, type_id(type_name), QoS(**qos))
+
+    def service(self, name, type_name):
+        """A service that does not answer."""
+        parts = [type_id(f"{type_name}_{part}") for part in ("Request", "Response")]
+        types = ServiceTypes(type_name, *parts, msg.type_hash)
+        return self.node.create_service(name, types, QoS())
 
     def say(self, publisher, data):
         """Publish a text."""

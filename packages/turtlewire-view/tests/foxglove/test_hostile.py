@@ -15,7 +15,6 @@ from hypothesis import strategies as st
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
-from turtlewire import msg
 from turtlewire_view.foxglove.channel import FoxgloveChannel
 from turtlewire_view.foxglove.protocol import (
     ClientMessage,
@@ -214,12 +213,7 @@ def test_garbage_on_the_socket_and_half_a_request_do_not_matter(serve, client):
 
 def test_too_many_requests_at_once_are_refused(serve, client, robot):
     """A client that calls a service that never answers does not fill the memory."""
-    from turtlewire.wire.base import ServiceTypes, TypeId
-    from turtlewire.wire.qos import QoS
-
-    name = "std_srvs/srv/Empty"
-    parts = [TypeId(f"{name}_{part}", msg.type_hash(f"{name}_{part}")) for part in PARTS]
-    service = robot.node.create_service("/never", ServiceTypes(name, *parts, msg.type_hash), QoS())
+    service = robot.service("/never", "std_srvs/srv/Empty")
     one = client()
     number = one.service("/never")["id"]
     for call_id in range(101):
@@ -230,9 +224,6 @@ def test_too_many_requests_at_once_are_refused(serve, client, robot):
     service.close()
     for _ in range(100):
         assert one.next("serviceCallFailure")["message"] == "service /never went away"
-
-
-PARTS = ("Request", "Response")
 
 
 def test_a_slow_client_loses_old_messages_and_others_lose_none(serve, client, robot, log):
@@ -262,9 +253,7 @@ def test_a_slow_client_loses_old_messages_and_others_lose_none(serve, client, ro
     assert "messages of /points are lost: this connection is too slow for it" in warning
     assert slow.status()[1] in warning
     slow.sync()
-    assert not [
-        frame for frame in slow.frames if isinstance(frame, dict) and frame["op"] == "status"
-    ]
+    assert not [each for each in slow.frames if isinstance(each, dict) and each["op"] == "status"]
 
 
 def test_a_client_that_reads_nothing_is_asked_for_no_more(serve, client):
@@ -295,8 +284,7 @@ def test_nothing_stays_of_clients_and_topics_that_have_gone(serve, client, robot
             publisher = robot.publisher(f"/t{number}")
             one = Client(socket)
             one.subscribe(f"/t{number}", 1)
-            channel = {"id": 1, "topic": "/c", "encoding": "json", "schemaName": "std_msgs/String"}
-            one.send("advertise", channels=[channel])
+            one.publish_on("/c")
             one.send("subscribeParameterUpdates", parameterNames=[])
             one.send("subscribeConnectionGraph")
             one.sync()

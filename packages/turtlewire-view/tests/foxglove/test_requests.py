@@ -7,7 +7,7 @@ import struct
 import pytest
 
 from turtlewire import msg
-from turtlewire.wire.qos import QoS, Reliability
+from turtlewire.wire.qos import Reliability
 
 SET_BOOL = "std_srvs/srv/SetBool"
 
@@ -91,15 +91,7 @@ def test_wrong_calls_are_answered_with_a_reason(client, switch):
 
 
 def test_a_call_fails_when_its_service_goes(client, robot):
-    from turtlewire.wire.base import ServiceTypes, TypeId
-
-    def type_id(name):
-        return TypeId(name, msg.type_hash(name))
-
-    types = ServiceTypes(
-        SET_BOOL, type_id(f"{SET_BOOL}_Request"), type_id(f"{SET_BOOL}_Response"), msg.type_hash
-    )
-    silent = robot.node.create_service("/silent", types, QoS())
+    silent = robot.service("/silent", SET_BOOL)
     waiting = robot.context.create_wait_set()
     waiting.attach(silent)
     one = client()
@@ -253,24 +245,20 @@ def test_the_connections_and_their_changes(client, robot):
     one.subscribe("/chatter", 1)
     one.send("subscribeConnectionGraph")
 
-    def tells(kind, name, ids):
-        def check(frame):
-            return (
-                isinstance(frame, dict)
-                and frame["op"] == "connectionGraphUpdate"
-                and any(each["name"] == name and ids in each.values() for each in frame[kind])
-            )
+    def told(kind, name, ids):
+        one.next(
+            "connectionGraphUpdate",
+            lambda frame: any(
+                each["name"] == name and ids in each.values() for each in frame[kind]
+            ),
+        )
 
-        return check
-
-    one.next_frame(tells("publishedTopics", "/chatter", ["/robot"]))  # first perhaps by its GID
+    told("publishedTopics", "/chatter", ["/robot"])  # first perhaps by its GID
     robot.hear("/new")
-    one.next_frame(tells("subscribedTopics", "/new", ["/robot"]))
+    told("subscribedTopics", "/new", ["/robot"])
     for subscription in robot.subscriptions:
         subscription.close()
-    one.next_frame(
-        lambda frame: isinstance(frame, dict) and "/new" in frame.get("removedTopics", ())
-    )
+    one.next("connectionGraphUpdate", lambda frame: "/new" in frame["removedTopics"])
     one.send("unsubscribeConnectionGraph")
     one.sync()
     one.frames.clear()

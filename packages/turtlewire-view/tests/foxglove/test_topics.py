@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from turtlewire import msg
-from turtlewire.wire.qos import Durability, Reliability
+from turtlewire.wire.base import TypeId
+from turtlewire.wire.qos import Durability, QoS, Reliability
 from turtlewire_view.foxglove.schemas import schema
 
 LATCHED = {"durability": Durability.TRANSIENT_LOCAL}
@@ -17,15 +18,7 @@ LATCHED = {"durability": Durability.TRANSIENT_LOCAL}
 @pytest.fixture
 def bridged(robot):
     """Subscriptions of a topic, as the robot sees them; only the server makes any."""
-
-    def subscriptions(topic):
-        return [
-            end
-            for end in robot.context.graph.endpoints()
-            if end.topic == topic and end.kind == "subscription"
-        ]
-
-    return subscriptions
+    return lambda topic: robot.context.graph.endpoints_of(topic, "subscription")
 
 
 def test_the_server_says_first_what_it_can(client, log):
@@ -126,10 +119,9 @@ def test_latched_and_other_publishers_of_one_topic_are_all_heard_once(
     robot.wait_until(lambda: other.subscription_count() >= 1)
     robot.say(other, "loose")
     assert one.text(1) == "loose"
-    robot.say(keeper, "second")
-    assert one.text(1) == "second"
-    robot.say(keeper, "third")
-    assert one.text(1) == "third"
+    for again in ("second", "third"):
+        robot.say(keeper, again)
+        assert one.text(1) == again
 
 
 def test_a_best_effort_publisher_that_comes_later_is_heard_too(client, robot):
@@ -172,9 +164,6 @@ def test_hidden_topics_and_those_not_on_the_list_are_left_out(serve, client, rob
 
 
 def test_a_type_that_is_not_known_or_another_one_here_is_a_line(client, robot, log):
-    from turtlewire.wire.base import TypeId
-    from turtlewire.wire.qos import QoS
-
     no_hash = "RIHS01_" + 64 * "0"
     for topic, type_name in {"/odd": "odd_msgs/msg/Odd", "/old": "std_msgs/msg/Bool"}.items():
         robot.node.create_publisher(topic, TypeId(type_name, no_hash), QoS())
@@ -217,8 +206,7 @@ def test_publisher_of_a_client_ends_with_it(client, robot):
     robot.hear("/said")
     (subscription,) = robot.subscriptions
     one = client()
-    channel = {"id": 1, "topic": "said", "encoding": "json", "schemaName": "std_msgs/String"}
-    one.send("advertise", channels=[channel])
+    one.publish_on("said")
     robot.wait_until(lambda: subscription.publisher_count() == 1)
     one.socket.close()
     robot.wait_until(lambda: subscription.publisher_count() == 0)
@@ -227,17 +215,15 @@ def test_publisher_of_a_client_ends_with_it(client, robot):
 def test_a_subscription_that_wants_latched_messages_hears_clients(client, robot):
     heard = robot.hear("/map_like", **LATCHED)
     one = client()
-    channel = {"id": 1, "topic": "/map_like", "encoding": "json", "schemaName": "std_msgs/String"}
     one.channel("/map_like")
-    one.send("advertise", channels=[channel])
+    one.publish_on("/map_like")
     one.socket.send(b"\x01\x01\0\0\0" + b'{"data": "hello"}')
     assert heard.get(timeout=60) == "hello"
 
 
 def test_clients_hear_each_other(client):
     speaker, listener = client(), client()
-    channel = {"id": 1, "topic": "/talk", "encoding": "json", "schemaName": "std_msgs/String"}
-    speaker.send("advertise", channels=[channel])
+    speaker.publish_on("/talk")
     listener.subscribe("/talk", 5)
     listener.sync()
     speaker.socket.send(b"\x01\x01\0\0\0" + b'{"data": "over"}')

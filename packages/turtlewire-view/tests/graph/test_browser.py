@@ -13,16 +13,9 @@ from tests.pages import (
 
 from turtlewire import msg
 
-from .conftest import LIMIT_S
-from .pictures import BEST_EFFORT, large
+from ..view.conftest import SIZES
+from .conftest import BEST_EFFORT, LIMIT_S, large
 
-SIZES = {
-    "desktop": (1280, 800),
-    "phone": (390, 844),
-    "small": (320, 640),
-    "landscape": (844, 390),
-    "zoomed": (320, 256),  # 1280 x 1024 at 400 %
-}
 LOST = "#connection[data-state=lost]"
 
 

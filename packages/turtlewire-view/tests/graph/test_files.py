@@ -16,7 +16,7 @@ from turtlewire.wire.qos import INFINITE_NS, QoS
 from turtlewire_view.graph.files import as_data, as_dot, as_json, as_svg, writer_for
 from turtlewire_view.graph.picture import Selection
 
-from .pictures import STRING, KnownGraph, large, robot
+from .conftest import STRING, KnownGraph, large, robot
 
 SVG = "{http://www.w3.org/2000/svg}"
 RED = "#c2334d"

@@ -9,8 +9,7 @@ from websockets.sync.client import connect
 from turtlewire import msg
 from turtlewire.wire.qos import Durability, QoS, Reliability
 
-from .conftest import Peer, node_names
-from .pictures import BEST_EFFORT, LATCHED
+from .conftest import BEST_EFFORT, LATCHED, Peer, node_names
 
 
 def text_message(text):

@@ -9,12 +9,11 @@ import re
 import pytest
 
 from turtlewire.wire.qos import QoS
-from turtlewire_view.graph.diagram import Arrow, Box, Diagram, make_diagram
 from turtlewire_view.graph.layers import make_layers
-from turtlewire_view.graph.layout import make_layout
+from turtlewire_view.graph.layout import Arrow, Box, Diagram, make_diagram, make_layout
 from turtlewire_view.graph.picture import UNKNOWN, Selection, read_graph, select
 
-from .pictures import BEST_EFFORT, STRING, KnownGraph, large, robot
+from .conftest import BEST_EFFORT, STRING, KnownGraph, large, robot
 
 
 def placed(graph, topics="all"):

@@ -16,9 +16,19 @@ from turtlewire.wire.base import TypeId
 from turtlewire_view import LiveSource, Viewer
 
 from .fake_view import FakeView, decode_packet
+from .looking_down import LOOK_DOWN, REMOVE_ALL, Scene
+from .still_source import StillSource
 
 TF = TypeId(TYPE_NAME, msg.type_hash(TYPE_NAME))
 LIMIT_S = 120
+#: Width and height of windows.
+SIZES = {
+    "desktop": (1280, 800),
+    "phone": (390, 844),
+    "small": (320, 640),
+    "landscape": (844, 390),
+    "zoomed": (320, 256),  # 1280 x 1024 at 400 %
+}
 
 
 class Page:
@@ -120,6 +130,20 @@ def transform_message(parent, child, place, stamp_s):
 
 
 @pytest.fixture
+def meshes(tmp_path, monkeypatch):
+    """The folder of meshes of ``arm``, the only installed package."""
+    packages, folder = (
+        tmp_path / "share/ament_index/resource_index/packages",
+        tmp_path / "share/arm",
+    )
+    packages.mkdir(parents=True)
+    (packages / "arm").touch()
+    (folder / "meshes").mkdir(parents=True)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    return folder / "meshes"
+
+
+@pytest.fixture
 def robot():
     robot = Robot()
     yield robot
@@ -178,3 +202,31 @@ def open_view(browser_3d):
     for context in contexts:
         context.close()
     assert errors == []
+
+
+@pytest.fixture(scope="module")
+def shown_page(browser_3d):
+    """One page for all tests: its displays are removed after each."""
+    source = StillSource()
+    viewer = Viewer(source, "map", port=0)
+    context = browser_3d.new_context(viewport={"width": 900, "height": 700}, color_scheme="light")
+    page = context.new_page()
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
+    page.goto(viewer.url)
+    page.wait_for_selector("#connection[data-state=live]")
+    page.evaluate(LOOK_DOWN)
+    yield page, source, errors
+    context.close()
+    viewer.close()
+
+
+@pytest.fixture
+def scene(shown_page):
+    page, source, errors = shown_page
+    yield Scene(page, source, len(source.topics()))
+    page.evaluate(REMOVE_ALL)
+    page.evaluate("document.querySelector('#looks').open = false")  # open, it covers the picture
+    seen, errors[:] = errors[:], []
+    assert seen == []

@@ -1,12 +1,8 @@
 """A real browser whose page looks down at the displays of a test."""
 
-import pytest
 from tests.pages import wait_until
 
 from turtlewire import msg
-from turtlewire_view import Viewer
-
-from .still_source import StillSource
 
 LIMIT_MS = 120_000
 #: Looks down on the square of 8 m around the origin, without frames, names and grid.
@@ -120,34 +116,6 @@ class Scene:
 
     def status(self):
         return self.page.inner_text("#display-list")
-
-
-@pytest.fixture(scope="module")
-def shown_page(browser_3d):
-    """One page for all tests: its displays are removed after each."""
-    source = StillSource()
-    viewer = Viewer(source, "map", port=0)
-    context = browser_3d.new_context(viewport={"width": 900, "height": 700}, color_scheme="light")
-    page = context.new_page()
-    errors = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
-    page.goto(viewer.url)
-    page.wait_for_selector("#connection[data-state=live]")
-    page.evaluate(LOOK_DOWN)
-    yield page, source, errors
-    context.close()
-    viewer.close()
-
-
-@pytest.fixture
-def scene(shown_page):
-    page, source, errors = shown_page
-    yield Scene(page, source, len(source.topics()))
-    page.evaluate(REMOVE_ALL)
-    page.evaluate("document.querySelector('#looks').open = false")  # open, it covers the picture
-    seen, errors[:] = errors[:], []
-    assert seen == []
 
 
 get = msg.get_message

@@ -3,8 +3,6 @@
 Windows of pictures over the scene: their places, names, and how they are moved and closed.
 """
 
-# ruff: noqa: F811 - fixtures are imported
-
 import base64
 import io
 
@@ -13,16 +11,7 @@ import pytest
 from PIL import Image
 from tests.pages import wait_until
 
-from .looking_down import (  # noqa: F401 - fixtures  # noqa: F401 - fixtures
-    ADD,
-    LIMIT_MS,
-    REMOVE_ALL,
-    get,
-    pose,
-    scene,
-    shown_page,
-    stamped,
-)
+from .looking_down import ADD, LIMIT_MS, REMOVE_ALL, get, pose, stamped
 
 BLUE, RED = (0, 0, 255), (255, 0, 0)
 K = [100.0, 0.0, 80.0, 0.0, 100.0, 60.0, 0.0, 0.0, 1.0]

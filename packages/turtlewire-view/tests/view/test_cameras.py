@@ -17,8 +17,6 @@ from turtlewire_view import Viewer
 from turtlewire_view.displays import displays_of, further_kinds
 from turtlewire_view.displays.camera import CameraDisplay, CompressedCameraDisplay, info_topic
 from turtlewire_view.displays.content import Content
-from turtlewire_view.rviz_file import read_rviz
-from turtlewire_view.rviz_writing import write_rviz
 
 from .looking_down import get, stamped
 from .still_source import StillSource
@@ -137,34 +135,6 @@ def test_a_camera_is_offered_next_to_its_info():
     assert set(displays_of("camera")) == {
         "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
     }  # fmt: skip
-
-
-FILE = """
-Visualization Manager:
-  Displays:
-    - Class: rviz_default_plugins/Camera
-      Far Plane Distance: 30
-      Image Rendering: background
-      Overlay Alpha: 0.25
-      Topic: {Value: /eye/image_raw, Depth: 9}
-      Visibility: {Grid: false, TF: true, Value: true, Walls: true}
-      Zoom Factor: 2
-"""
-
-
-def test_a_camera_of_a_file():
-    view = read_rviz(FILE)
-    (display,) = view.displays
-    assert (display.kind, display.topic, view.unread) == ("camera", "/eye/image_raw", "")
-    assert display.options == {
-        "rendering": "background", "alpha": 0.25, "zoom": 2, "far": 30, "show_grid": False,
-        "show_frames": True,
-    }  # fmt: skip
-    again = read_rviz(write_rviz(view, {}, view))
-    assert again.displays == view.displays
-    saved = again.document["Visualization Manager"]["Displays"][0]
-    assert saved["Visibility"]["Walls"] is True
-    assert saved["Topic"]["Depth"] == 9
 
 
 def test_a_page_gets_the_image_and_its_projection(open_view_page):
@@ -316,14 +286,9 @@ def stl_of_a_pole(height):
     return bytes(80) + struct.pack("<I12fH", 1, *numbers, 0)
 
 
-def test_a_robot_is_seen_whole_when_its_mesh_comes_late(source, open_view, tmp_path, monkeypatch):
-    markers = tmp_path / "share/ament_index/resource_index/packages"
-    markers.mkdir(parents=True)
-    (markers / "pole").touch()
-    (tmp_path / "share/pole").mkdir()
-    (tmp_path / "share/pole/pole.stl").write_bytes(stl_of_a_pole(6.0))
-    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-    mesh = '<geometry><mesh filename="package://pole/pole.stl"/></geometry>'
+def test_a_robot_is_seen_whole_when_its_mesh_comes_late(source, open_view, meshes):
+    (meshes / "pole.stl").write_bytes(stl_of_a_pole(6.0))
+    mesh = '<geometry><mesh filename="package://arm/meshes/pole.stl"/></geometry>'
     describe(source, TALL.format(visual=mesh))
     page = open_view(source.url)
     assert wait_until(page, IN_FULL_VIEW, [[1, 1, 0], [1, 1, 6]])  # tip is at (1, 1, 0)

@@ -3,8 +3,6 @@
 Depth clouds in a real browser: the points are as large as their pixels.
 """
 
-# ruff: noqa: F811 - fixtures are imported
-
 import math
 
 import numpy as np
@@ -15,10 +13,8 @@ from turtlewire_view import Viewer
 from turtlewire_view.displays import displays_of, further_kinds
 from turtlewire_view.displays.content import Content
 from turtlewire_view.displays.depth_cloud import DepthCloudDisplay
-from turtlewire_view.rviz_file import read_rviz
-from turtlewire_view.rviz_writing import write_rviz
 
-from .looking_down import BLUE, RED, scene, shown_page, stamped  # noqa: F401 - fixtures
+from .looking_down import BLUE, RED, stamped
 from .still_source import StillSource
 
 get = msg.get_message
@@ -227,40 +223,6 @@ def test_a_depth_cloud_is_offered_for_depths_with_a_camera():
     kinds = further_kinds("/eye/image", "sensor_msgs/msg/Image", ["/eye/camera_info"])
     assert kinds == ["camera"]
     assert list(displays_of("depth_cloud")) == ["sensor_msgs/msg/Image"]
-
-
-FILE = """
-Visualization Manager:
-  Displays:
-    - Alpha: 0.5
-      Auto Size: {Auto Size Factor: 1.5, Value: true}
-      Class: rviz_default_plugins/DepthCloud
-      Color Image Topic: /eye/color
-      Color Transformer: RGB8
-      Color Transport Hint: raw
-      Decay Time: 2
-      Depth Map Topic: /eye/depth
-      Occlusion Compensation: {Occlusion Time-Out: 30, Value: true}
-      Queue Size: 5
-      Style: Flat Squares
-      Topic Filter: true
-"""
-
-
-def test_a_depth_cloud_of_a_file():
-    view = read_rviz(FILE)
-    (display,) = view.displays
-    assert (display.kind, display.topic, view.unread) == ("depth_cloud", "/eye/depth", "")
-    assert display.options == {
-        "alpha": 0.5, "auto_size": True, "auto_size_factor": 1.5, "color_topic": "/eye/color",
-        "color": "rgb", "decay_time": 2, "style": "flat squares",
-    }  # fmt: skip
-    again = read_rviz(write_rviz(view, {}, view))
-    assert again.displays == view.displays
-    saved = again.document["Visualization Manager"]["Displays"][0]
-    assert saved["Depth Map Topic"] == "/eye/depth"
-    assert saved["Occlusion Compensation"] == {"Occlusion Time-Out": 30, "Value": True}
-    assert "Topic" not in saved
 
 
 def test_a_page_chooses_a_colour_image_later(open_view_page):

@@ -1,7 +1,5 @@
 """Each display in a real browser: what colour the picture has at known places."""
 
-# ruff: noqa: F811 - fixtures are imported
-
 import base64
 import copy
 import io
@@ -12,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from .looking_down import (  # noqa: F401 - fixtures
+from .looking_down import (
     BLUE,
     GREEN,
     GROUND,
@@ -23,8 +21,6 @@ from .looking_down import (  # noqa: F401 - fixtures
     WHITE,
     get,
     pose,
-    scene,
-    shown_page,
     stamped,
 )
 
@@ -414,13 +410,8 @@ def stl(*triangles):
 
 
 @pytest.fixture
-def package(tmp_path, monkeypatch):
+def package(meshes):
     """The package ``arm`` with a mesh: a triangle on the ground."""
-    markers = tmp_path / "share/ament_index/resource_index/packages"
-    meshes = tmp_path / "share/arm/meshes"
-    for folder in (markers, meshes):
-        folder.mkdir(parents=True)
-    (markers / "arm").touch()
     corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     (meshes / "flat.stl").write_bytes(stl(corners))
     (meshes / "four.bmp").write_bytes(IMAGE)
@@ -438,7 +429,6 @@ def package(tmp_path, monkeypatch):
     (meshes / "four.tif").write_bytes(tiff([[RED, BLUE], [GREEN, BLUE]]))
     (meshes / "broken.stl").write_bytes(stl(corners)[:90])
     (meshes / "broken.dae").write_text("<img src=x>")
-    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
 
 
 @pytest.mark.usefixtures("package")

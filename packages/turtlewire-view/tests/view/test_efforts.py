@@ -3,24 +3,15 @@
 Efforts in a real browser: rings and arrows at the joints' frames.
 """
 
-# ruff: noqa: F811 - fixtures are imported
-
 import math
 
 import pytest
 
-from turtlewire import msg
-from turtlewire_view import Viewer
-from turtlewire_view.displays import display_types
 from turtlewire_view.displays.content import Content, Removal
 from turtlewire_view.displays.effort import EffortDisplay
-from turtlewire_view.rviz_file import read_rviz
-from turtlewire_view.rviz_writing import write_rviz
 
-from .looking_down import get, scene, shown_page  # noqa: F401 - fixtures
-from .still_source import StillSource
+from .looking_down import get
 
-get = msg.get_message
 JointState, String = get("sensor_msgs/msg/JointState"), get("std_msgs/msg/String")
 STATES, ROBOT = "/joint_states", "/robot_description"
 URDF = """<robot name="r">
@@ -114,51 +105,6 @@ def test_a_wrong_description_is_named_at_once_and_replaced():
 def test_wrong_choices_of_joints_are_refused(joints):
     with pytest.raises(ValueError, match="option 'joints' of a"):
         EffortDisplay({"joints": joints})
-
-
-FILE = """
-Visualization Manager:
-  Displays:
-    - Alpha: 0.5
-      Class: rviz_default_plugins/Effort
-      History Length: 3
-      Joints: {All Enabled: true, elbow: {Value: false}, roll: true, slide: {Max Effort: 7}}
-      Robot Description: arm_description
-      Scale: 2
-      TF Prefix: left
-      Topic: {Value: /arm/joint_states}
-      Width: 0.1
-    - {Class: rviz_default_plugins/Effort}
-"""
-
-
-def test_efforts_of_a_file():
-    view = read_rviz(FILE)
-    display, default = view.displays
-    assert (display.kind, display.topic, view.unread) == ("effort", "/arm/joint_states", "")
-    assert display.options == {
-        "alpha": 0.5, "history_length": 3, "description_topic": "/arm_description", "scale": 2,
-        "tf_prefix": "left", "width": 0.1,
-        "joints": {"elbow": {"shown": False}, "roll": {"shown": True},
-                   "slide": {"shown": True, "max": 7}},
-    }  # fmt: skip
-    assert default.topic == "/joint_states"
-    again = read_rviz(write_rviz(view, {}, view))
-    assert again.displays == view.displays
-    saved = again.document["Visualization Manager"]["Displays"][0]["Joints"]
-    assert saved["All Enabled"] is True
-    assert saved["slide"] == {"Value": True, "Max Effort": 7}
-
-
-def test_a_page_gets_efforts(open_view_page):
-    assert display_types()["sensor_msgs/msg/JointState"] is EffortDisplay
-    source = StillSource()
-    source.offer(STATES, states(elbow=5))
-    source.offer(ROBOT, String(data=URDF))
-    with Viewer(source, "map", port=0) as viewer:
-        page = open_view_page(viewer)
-        page.send("add", id="a", kind="effort", topic=STATES, options={})
-        assert page.wait_for("display")["joints"][0]["share"] == 0.5
 
 
 PICTURED = """<robot name="r"><link name="map"/><link name="base"/><link name="tip"/>

@@ -33,6 +33,9 @@ class Page:
 
     def send(self, message, topic="/t"):
         self.feed.take_message(topic, msg.serialize(message))
+        self.work()
+
+    def work(self):
         self.feed.work(Base(self.buffer, "map", (0.0, 0.0, 0.0)))
 
     def take(self):
@@ -78,16 +81,22 @@ def test_a_deletion_removes_the_part_that_it_empties(page):
     assert (removed["type"], removed["part"]) == ("removed", "0")
 
 
-def test_each_update_of_a_map_is_sent():
-    types = {"/t": "nav_msgs/msg/OccupancyGrid", "/u": "map_msgs/msg/OccupancyGridUpdate"}
-    page = Page(OccupancyGridDisplay(), types)
-    page.know("base")
-    grid = msg.get_message(types["/t"])(data=[0, 0, 0, 0])
+GRID, UPDATE = "nav_msgs/msg/OccupancyGrid", "map_msgs/msg/OccupancyGridUpdate"
+
+
+def square_map(side):
+    grid = msg.get_message(GRID)(data=[0] * side**2)
     grid.header.frame_id = "base"
-    grid.info.width = grid.info.height = 2
+    grid.info.width = grid.info.height = side
     grid.info.resolution = 1.0
-    page.send(grid)
-    change = msg.get_message(types["/u"])(width=1, height=1, data=[7])
+    return grid
+
+
+def test_each_update_of_a_map_is_sent():
+    page = Page(OccupancyGridDisplay(), {"/t": GRID, "/u": UPDATE})
+    page.know("base")
+    page.send(square_map(2))
+    change = msg.get_message(UPDATE)(width=1, height=1, data=[7])
     for change.x in (0, 1):
         page.send(change, "/u")
     updates = [packet["update"] for packet in page.take() if "update" in packet]
@@ -96,17 +105,13 @@ def test_each_update_of_a_map_is_sent():
 
 @pytest.mark.parametrize("taken", [True, False])
 def test_a_new_map_comes_after_the_updates_of_the_former_one(taken):
-    types = {"/t": "nav_msgs/msg/OccupancyGrid", "/u": "map_msgs/msg/OccupancyGridUpdate"}
-    page = Page(OccupancyGridDisplay(), types)
+    page = Page(OccupancyGridDisplay(), {"/t": GRID, "/u": UPDATE})
     page.know("base")
-    grid = msg.get_message(types["/t"])(data=[0])
-    grid.header.frame_id = "base"
-    grid.info.width = grid.info.height = 1
-    grid.info.resolution = 1.0
+    grid = square_map(1)
     page.send(grid)
     if taken:
         page.take()
-    change = msg.get_message(types["/u"])(width=1, height=1, data=[7])
+    change = msg.get_message(UPDATE)(width=1, height=1, data=[7])
     page.feed.take_message("/u", msg.serialize(change))
     page.send(grid)  # both are seen at once
     cells = [p["arrays"]["cells"].tolist() for p in page.take() if p["type"] == "display"]
@@ -148,7 +153,7 @@ def test_other_options_show_the_last_message_again():
     page.send(cloud)
     page.take()
     page.feed.set_options({"color": "flat", "flat_color": [1, 2, 3]})
-    page.feed.work(Base(page.buffer, "map", (0.0, 0.0, 0.0)))
+    page.work()
     assert page.take()[0]["arrays"]["rgba"].tolist() == [[1, 2, 3, 255]]
 
 
@@ -160,7 +165,7 @@ def test_fifty_contents_wait_for_transforms(page, sent, dropped):
     assert text.startswith("More than 50 messages wait, the oldest are dropped: ") == bool(dropped)
     assert '"map" passed to lookupTransform argument target_frame does not exist' in text
     page.know("base")
-    page.feed.work(Base(page.buffer, "map", (0.0, 0.0, 0.0)))
+    page.work()
     keys = [p["markers"][0]["key"][1] for p in page.take() if "markers" in p]
     assert keys == list(range(dropped, sent))
 
@@ -174,7 +179,7 @@ def test_nothing_is_dropped_whose_transforms_are_known(in_one_message):
         each.header.stamp.sec = number + 1
     for some in [markers] if in_one_message else [[each] for each in markers]:
         page.feed.take_message("/t", msg.serialize(MarkerArray(markers=some)))
-    page.feed.work(Base(page.buffer, "map", (0.0, 0.0, 0.0)))
+    page.work()
     keys = [p["markers"][0]["key"][1] for p in page.take() if "markers" in p]
     assert keys == list(range(120))
 
@@ -183,7 +188,7 @@ def test_the_status_of_a_wait_ends_with_it(page):
     page.send(marker(1))
     assert page.take()[-1]["level"] == "warn"
     page.know("base")
-    page.feed.work(Base(page.buffer, "map", (0.0, 0.0, 0.0)))
+    page.work()
     assert page.take()[-1] == {
         "type": "status", "id": "d", "level": "ok", "text": "", "arrays": {},
     }  # fmt: skip

@@ -11,10 +11,8 @@ from turtlewire_view import BufferSource, LiveSource, Viewer
 from turtlewire_view.displays.content import Content, Removal, Status
 from turtlewire_view.displays.interactive_markers import InteractiveMarkersDisplay
 from turtlewire_view.frames import Base
-from turtlewire_view.interactive_feedback import feedback_message
 from turtlewire_view.page_commands import GiveFeedback
-from turtlewire_view.rviz_file import read_rviz
-from turtlewire_view.rviz_writing import write_rviz
+from turtlewire_view.page_requests import feedback_message
 
 from .still_source import StillSource
 
@@ -255,35 +253,6 @@ def test_a_repeated_menu_entry_is_shown_once(display):
     outputs = respond(display, 1, marker(menu_entries=entries))
     assert len(contents(outputs)["knob"].header["menu"]) == 1
     assert status_of(outputs)[1] == "two menu entries have the id 1; the first one is shown"
-
-
-FILE = """
-Visualization Manager:
-  Displays:
-    - Class: rviz_default_plugins/InteractiveMarkers
-      Enable Transparency: false
-      Interactive Markers Namespace: /arm
-      Show Axes: true
-      Show Descriptions: false
-      Show Visual Aids: true
-    - {Class: rviz/InteractiveMarkers, Update Topic: /old/update}
-"""
-
-
-def test_interactive_markers_of_a_file():
-    view = read_rviz(FILE)
-    display, old = view.displays
-    assert (display.kind, display.topic, view.unread) == ("interactive_markers", UPDATE, "")
-    assert display.options == {
-        "transparency": False, "show_axes": True, "show_descriptions": False,
-        "show_visual_aids": True,
-    }  # fmt: skip
-    assert old.topic == "/old/update"
-    again = read_rviz(write_rviz(view, {}, view))
-    assert again.displays == view.displays
-    saved = again.document["Visualization Manager"]["Displays"][0]
-    assert saved["Interactive Markers Namespace"] == "/arm"
-    assert "Topic" not in saved
 
 
 class Feed:

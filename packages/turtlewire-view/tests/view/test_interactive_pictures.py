@@ -1,7 +1,5 @@
 """Interactive markers in a real browser: handles are drawn, dragged, clicked, and have menus."""
 
-# ruff: noqa: F811 - fixtures are imported
-
 import math
 
 import pytest
@@ -9,7 +7,7 @@ from tests.pages import PROJECT
 
 from turtlewire import msg
 
-from .looking_down import ADD, LIMIT_MS, get, scene, shown_page, stamped  # noqa: F401 - fixtures
+from .looking_down import ADD, LIMIT_MS
 from .test_interactive_markers import Control, Entry, Feedback, Marker, Pose, Service, Shape, Update
 
 KEEP_ALIVE, POSE, MENU, CLICK, DOWN, UP = range(6)

@@ -170,10 +170,15 @@ def describer():
         yield describer
 
 
-def ask(watched, node, name):
+@contextlib.contextmanager
+def asked(watched, node, name):
+    """Ask for a parameter; gives the queue of the answers."""
     answers = queue.SimpleQueue()
     end = watched.ask_parameter(node, name, answers.put)
-    return answers, end
+    try:
+        yield answers
+    finally:
+        end()
 
 
 def wait_for(answers, accept):
@@ -184,9 +189,7 @@ def wait_for(answers, accept):
 
 
 def test_the_text_of_a_node_that_comes_later(watched, describer):
-    answers, end = ask(watched, "/describer", "robot")
-    with contextlib.closing(contextlib.ExitStack()) as stack:
-        stack.callback(end)
+    with asked(watched, "/describer", "robot") as answers:
         absent = answers.get(timeout=LIMIT_S)
         assert absent.problem.startswith("there is no node /describer with parameters; nodes with ")
         describer(robot="<robot/>")
@@ -195,9 +198,7 @@ def test_the_text_of_a_node_that_comes_later(watched, describer):
 
 def test_a_node_that_starts_before_another_ends_is_asked(watched, describer):
     first = describer(robot="<first/>")
-    answers, end = ask(watched, "/describer", "robot")
-    with contextlib.closing(contextlib.ExitStack()) as stack:
-        stack.callback(end)
+    with asked(watched, "/describer", "robot") as answers:
         wait_for(answers, lambda answer: answer.text == "<first/>")
         describer(robot="<second/>")
         first.destroy_node()
@@ -213,9 +214,7 @@ def test_a_node_that_starts_before_another_ends_is_asked(watched, describer):
 )
 def test_why_there_is_no_text(watched, describer, name, why):
     describer(count=3)
-    answers, end = ask(watched, "/describer", name)
-    with contextlib.closing(contextlib.ExitStack()) as stack:
-        stack.callback(end)
+    with asked(watched, "/describer", name) as answers:
         assert wait_for(answers, lambda answer: answer.problem == why)
 
 
@@ -269,9 +268,8 @@ def test_no_lock_is_held_while_an_answer_is_given(watched, describer):
     ],
 )
 def test_a_name_that_no_node_has(watched, name, fault):
-    answers, end = ask(watched, name, "robot")
-    end()
-    problem = answers.get(timeout=LIMIT_S).problem
+    with asked(watched, name, "robot") as answers:
+        problem = answers.get(timeout=LIMIT_S).problem
     assert problem.startswith(f"{name!r} is not the name of a node: {fault}")
 
 
@@ -279,24 +277,21 @@ def test_a_changed_parameter_is_followed(watched, describer, robot):
     """Its node's own event may come before the view has found that publisher: one more is sent."""
     node = describer(robot="<robot/>")
     events = robot.publisher("/parameter_events", "rcl_interfaces/msg/ParameterEvent", QoS())
-    answers, end = ask(watched, "/describer", "robot")
-    assert robot.wait_for(events.is_heard)
-    assert wait_for(answers, lambda answer: answer.text).text == "<robot/>"
-    for kind in ("new", "changed"):
-        text = f"<robot name='{kind}'/>"
-        node.set_parameters([Parameter("robot", value=text)])
-        event = msg.get_message("rcl_interfaces/msg/ParameterEvent")(node="/describer")
-        changed = msg.get_message("rcl_interfaces/msg/Parameter")(name="robot")
-        setattr(event, f"{kind}_parameters", [changed])
-        events.publish(msg.serialize(event))
-        wait_for(answers, lambda answer, text=text: answer.text == text)
-    end()
+    with asked(watched, "/describer", "robot") as answers:
+        assert robot.wait_for(events.is_heard)
+        assert wait_for(answers, lambda answer: answer.text).text == "<robot/>"
+        for kind in ("new", "changed"):
+            text = f"<robot name='{kind}'/>"
+            node.set_parameters([Parameter("robot", value=text)])
+            event = msg.get_message("rcl_interfaces/msg/ParameterEvent")(node="/describer")
+            changed = msg.get_message("rcl_interfaces/msg/Parameter")(name="robot")
+            setattr(event, f"{kind}_parameters", [changed])
+            events.publish(msg.serialize(event))
+            wait_for(answers, lambda answer, text=text: answer.text == text)
 
 
 def test_a_node_that_would_misread_the_request_is_named(watched, foreign_server):
     foreign_server("/stranger/get_parameters", "rcl_interfaces/srv/GetParameters")
-    answers, end = ask(watched, "/stranger", "robot")
-    with contextlib.closing(contextlib.ExitStack()) as stack:
-        stack.callback(end)
+    with asked(watched, "/stranger", "robot") as answers:
         answer = wait_for(answers, lambda answer: "is not called" in answer.problem)
     assert "Start the server with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp" in answer.problem

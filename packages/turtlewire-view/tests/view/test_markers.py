@@ -36,20 +36,9 @@ def shown(outputs):
             for each in output.header.get("markers", [])]  # fmt: skip
 
 
-@pytest.fixture
-def package(tmp_path, monkeypatch):
-    """A prefix with the package ``arm``, which has a mesh."""
-    markers = tmp_path / "share/ament_index/resource_index/packages"
-    for folder in (markers, tmp_path / "share/arm/meshes"):
-        folder.mkdir(parents=True)
-    (markers / "arm").touch()
-    (tmp_path / "share/arm/meshes/a.stl").touch()
-    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-
-
-@pytest.mark.usefixtures("package")
 @pytest.mark.parametrize("shape", MARKER_TYPES)
-def test_every_type_is_sent(shape):
+def test_every_type_is_sent(meshes, shape):
+    (meshes / "a.stl").touch()
     several = shape in SEVERAL or shape == "arrow_strip"
     message = marker(shape, points=6 if several else 0, text="hello",
                      mesh_resource="package://arm/meshes/a.stl")  # fmt: skip

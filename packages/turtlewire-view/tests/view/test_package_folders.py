@@ -11,8 +11,8 @@ from turtlewire.urdf import Robot
 from turtlewire_view import meshes
 from turtlewire_view.displays.robot_model import RobotModelDisplay
 from turtlewire_view.meshes import MeshFile, MeshLibrary, mesh_address
-from turtlewire_view.named_robots import find_robot
 from turtlewire_view.package_folders import PackageFolders, add_package_option
+from turtlewire_view.robots import find_robot
 
 URDF = """<robot name="arm"><link name="base">
   <visual><geometry><mesh filename="{mesh}"/></geometry></visual></link></robot>"""

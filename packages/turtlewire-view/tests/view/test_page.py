@@ -60,12 +60,31 @@ def press(page, point, **options) -> None:
 
 
 @pytest.fixture
-def page(fake, open_view):
+def told(fake):
     """Four frames: a path of two links, and one beside it."""
     fake.names(CHAIN)
     fake.frames(POSES)
-    page = open_view(fake.url)
+    return fake
+
+
+@pytest.fixture
+def fresh(told, open_view):
+    """The frames, seen as the page itself chose."""
+    page = open_view(told.url)
     wait_for_frame(page, "beacon")
+    return page
+
+
+@pytest.fixture
+def phone(told, open_view):
+    page = open_view(told.url, has_touch=True, viewport={"width": 390, "height": 780})
+    wait_for_frame(page, "arm")
+    return page
+
+
+@pytest.fixture
+def page(fresh):
+    page = fresh
     in_page(page, "stage.labels.showAll = false; stage.view.grid.object.visible = false;")
     in_page(page, "stage.setSize(0.8); stage.cameras.isTouched = true;")
     # No two axes are seen in one direction from here.
@@ -154,18 +173,13 @@ def test_an_arrow_leads_straight_from_the_frame_that_looks(page, fake):
     assert tuple(beside) == GROUND
 
 
-def test_a_tap_selects_and_a_finger_turns(fake, open_view):
-    fake.names(CHAIN)
-    fake.frames(POSES)
-    page = open_view(fake.url, has_touch=True, viewport={"width": 390, "height": 780})
-    wait_for_frame(page, "arm")
-    x, y = on_screen(page, POSES[3][:3])
-    box = page.locator("#scene").bounding_box()
-    page.touchscreen.tap(box["x"] + x, box["y"] + y)
+def test_a_tap_selects_and_a_finger_turns(phone, fake):
+    x, y = on_screen(phone, POSES[3][:3])
+    box = phone.locator("#scene").bounding_box()
+    phone.touchscreen.tap(box["x"] + x, box["y"] + y)
     fake.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "beacon")
-    assert page.evaluate(
-        "() => getComputedStyle(document.querySelector('#scene')).touchAction"
-    ) == ("none")
+    action = "() => getComputedStyle(document.querySelector('#scene')).touchAction"
+    assert phone.evaluate(action) == "none"
 
 
 def touch(session, kind, *points):
@@ -194,25 +208,6 @@ def camera_of(page):
     return in_page(page, "return stage.cameras.saved([0, 0, 0]);")
 
 
-@pytest.fixture
-def fresh(fake, open_view):
-    """The same frames, seen as the page itself chose."""
-    fake.names(CHAIN)
-    fake.frames(POSES)
-    page = open_view(fake.url)
-    wait_for_frame(page, "beacon")
-    return page
-
-
-@pytest.fixture
-def phone(fake, open_view):
-    fake.names(CHAIN)
-    fake.frames(POSES)
-    page = open_view(fake.url, has_touch=True, viewport={"width": 390, "height": 780})
-    wait_for_frame(page, "arm")
-    return page
-
-
 def test_two_fingers_come_nearer_and_move_the_picture(phone):
     before = camera_of(phone)
     two_fingers(phone, [(-40, 0), (40, 0)], [(-100, 0), (100, 0)])
@@ -234,22 +229,6 @@ def test_a_finger_turns_the_picture(phone):
         touch(session, "touchMove", (x + 20 * step, y))
     touch(session, "touchEnd")
     assert abs(camera_of(phone)["yaw"] - before["yaw"]) > 0.2
-
-
-def test_a_robot_that_drives_away_stays_in_the_picture(fresh, fake):
-    far = [IDENTITY, *(pose(x + 4000, y, z) for x, y, z, *_ in POSES[1:])]
-    inside = """async (place) => {
-        const { stage } = await import("./js/main.js");
-        const { Vector3 } = await import("three");
-        const at = stage.view.project(new Vector3(...place));
-        const { width, height } = stage.view.viewport;
-        return at && at.x > 0 && at.x < width && at.y > 0 && at.y < height;
-    }"""
-    for _ in range(3000):  # the page looks ten times a second where the frames are
-        if fresh.evaluate(inside, list(far[1][:3])):
-            break
-        fake.frames(far)
-    assert fresh.evaluate(inside, list(far[1][:3]))
 
 
 def test_fit_shows_displays_too(page, fake):
@@ -286,10 +265,8 @@ WebGL2RenderingContext.prototype.getParameter = function (what) {
 
 
 @pytest.mark.parametrize(("script", "smooth"), [("", False), (NAMED_AS_A_CARD, True)])
-def test_edges_are_smoothed_where_a_card_draws(fake, open_view, script, smooth):
-    fake.names(CHAIN)
-    fake.frames(POSES)
-    page = open_view(fake.url, script)
+def test_edges_are_smoothed_where_a_card_draws(told, open_view, script, smooth):
+    page = open_view(told.url, script)
     wait_for_frame(page, "beacon")
     attributes = "stage.view.canvas.getContext('webgl2').getContextAttributes().antialias"
     assert in_page(page, f"return {attributes};") is smooth
@@ -297,14 +274,12 @@ def test_edges_are_smoothed_where_a_card_draws(fake, open_view, script, smooth):
     assert tuple(page.evaluate(PIXELS, [[1.5, 0, 0]])[0]) != GROUND
 
 
-def test_without_webgl_the_tree_works(fake, open_view):
-    fake.names(CHAIN)
-    fake.frames(POSES)
+def test_without_webgl_the_tree_works(told, open_view):
     blind = "HTMLCanvasElement.prototype.getContext = () => null;"
-    page = open_view(fake.url, blind)
+    page = open_view(told.url, blind)
     page.wait_for_selector("#notice:text('cannot draw in 3D')")
     page.click("#tree .row:has-text('arm')")
-    fake.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "arm")
+    told.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "arm")
 
 
 def test_a_saved_camera_is_looked_through_again(fresh, fake):

@@ -13,6 +13,7 @@ from tests.pages import (
     weak_texts,
 )
 
+from .conftest import SIZES
 from .fake_view import IDENTITY, pose
 from .test_page import camera_of, in_page, on_screen, press
 
@@ -32,13 +33,6 @@ RELATION = {
     "rpy": [0, 0, 0],
     "matrix": [[1, 0, 0, 3], [0, 1, 0, 2], [0, 0, 1, 1], [0, 0, 0, 1]],
     "sentence": "arm is there.",
-}
-SIZES = {
-    "desktop": (1280, 800),
-    "phone": (390, 844),
-    "small": (320, 640),
-    "landscape": (844, 390),
-    "zoomed": (320, 256),  # 1280 x 1024 at 400 %
 }
 #: Left, top, right and bottom of elements in the window [px].
 BOXES = """(selector) => [...document.querySelectorAll(selector)]

@@ -14,7 +14,8 @@ from tests.plain_server import path_proxy, self_signed
 
 import turtlewire
 
-LIMIT_MS = 120_000
+from .test_notebook import LIMIT_MS, shows_frames
+
 HUB, COLAB_PORT = "hub.example", "7070-x.prod.colab.dev"
 COLAB = "https://colab.research.google.com/drive/1"
 COLAB_OUTPUT = "https://x-0-colab.googleusercontent.com/outputframe.html"
@@ -102,12 +103,6 @@ def answer(tab, address, content):
 
 def isolated(html):
     return f"<iframe {SANDBOX} width=900 height=700 srcdoc='{html}'></iframe>"
-
-
-def shows_frames(frame):
-    """Wait until the page in a frame has its WebSocket and the frames of the buffer."""
-    frame.locator("#connection[data-state=live]").wait_for()
-    frame.locator("#tree .row:has-text('camera')").wait_for()
 
 
 def assert_blocked(tab, address):

@@ -16,7 +16,7 @@ from websockets.sync.client import connect
 import turtlewire
 from turtlewire import msg
 from turtlewire.wire.qos import Durability, QoS
-from turtlewire_view.named_robots import find_robot
+from turtlewire_view.robots import find_robot
 
 from .fake_view import decode_packet
 from .test_robot_model import URDF

@@ -97,6 +97,112 @@ def test_a_file_of_rviz_is_read():
     assert view.header()["displays"][1]["visible"] is False
 
 
+#: Properties of displays in a file; kind, topic and options of each; what a saved file holds.
+FILES = {
+    "camera": (
+        """
+- Class: rviz_default_plugins/Camera
+  Far Plane Distance: 30
+  Image Rendering: background
+  Overlay Alpha: 0.25
+  Topic: {Value: /eye/image_raw, Depth: 9}
+  Visibility: {Grid: false, TF: true, Value: true, Walls: true}
+  Zoom Factor: 2
+""",
+        ["camera", "/eye/image_raw", {
+            "rendering": "background", "alpha": 0.25, "zoom": 2, "far": 30, "show_grid": False,
+            "show_frames": True,
+        }],
+        {"Visibility": {"Walls": True}, "Topic": {"Depth": 9}},
+    ),
+    "depth cloud": (
+        """
+- Alpha: 0.5
+  Auto Size: {Auto Size Factor: 1.5, Value: true}
+  Class: rviz_default_plugins/DepthCloud
+  Color Image Topic: /eye/color
+  Color Transformer: RGB8
+  Color Transport Hint: raw
+  Decay Time: 2
+  Depth Map Topic: /eye/depth
+  Occlusion Compensation: {Occlusion Time-Out: 30, Value: true}
+  Queue Size: 5
+  Style: Flat Squares
+  Topic Filter: true
+""",
+        ["depth_cloud", "/eye/depth", {
+            "alpha": 0.5, "auto_size": True, "auto_size_factor": 1.5, "color_topic": "/eye/color",
+            "color": "rgb", "decay_time": 2, "style": "flat squares",
+        }],
+        {"Depth Map Topic": "/eye/depth", "Topic": None,
+         "Occlusion Compensation": {"Occlusion Time-Out": 30, "Value": True}},
+    ),
+    "effort": (
+        """
+- Alpha: 0.5
+  Class: rviz_default_plugins/Effort
+  History Length: 3
+  Joints: {All Enabled: true, elbow: {Value: false}, roll: true, slide: {Max Effort: 7}}
+  Robot Description: arm_description
+  Scale: 2
+  TF Prefix: left
+  Topic: {Value: /arm/joint_states}
+  Width: 0.1
+""",
+        ["effort", "/arm/joint_states", {
+            "alpha": 0.5, "history_length": 3, "description_topic": "/arm_description", "scale": 2,
+            "tf_prefix": "left", "width": 0.1,
+            "joints": {"elbow": {"shown": False}, "roll": {"shown": True},
+                       "slide": {"shown": True, "max": 7}},
+        }],
+        {"Joints": {"All Enabled": True, "slide": {"Value": True, "Max Effort": 7}}},
+    ),
+    "effort by default": (
+        "- {Class: rviz_default_plugins/Effort}", ["effort", "/joint_states", {}], {}
+    ),
+    "interactive markers": (
+        """
+- Class: rviz_default_plugins/InteractiveMarkers
+  Enable Transparency: false
+  Interactive Markers Namespace: /arm
+  Show Axes: true
+  Show Descriptions: false
+  Show Visual Aids: true
+""",
+        ["interactive_markers", "/arm/update", {
+            "transparency": False, "show_axes": True, "show_descriptions": False,
+            "show_visual_aids": True,
+        }],
+        {"Interactive Markers Namespace": "/arm", "Topic": None},
+    ),
+    "interactive markers of ROS 1": (
+        "- {Class: rviz/InteractiveMarkers, Update Topic: /old/update}",
+        ["interactive_markers", "/old/update", {}],
+        {},
+    ),
+}  # fmt: skip
+
+
+def assert_holds(found, expected):
+    for name, value in expected.items():
+        if isinstance(value, dict):
+            assert_holds(found[name], value)
+        else:
+            assert found.get(name) == value
+
+
+@pytest.mark.parametrize(("text", "expected", "saved"), FILES.values(), ids=FILES)
+def test_a_display_of_a_file(text, expected, saved):
+    displays = yaml.safe_load(text)
+    view = read_rviz(yaml.safe_dump({"Visualization Manager": {"Displays": displays}}))
+    (display,) = view.displays
+    assert [display.kind, display.topic, display.options] == expected
+    assert view.unread == ""
+    again = read_rviz(write_rviz(view, {}, view))
+    assert again.displays == view.displays
+    assert_holds(again.document["Visualization Manager"]["Displays"][0], saved)
+
+
 @pytest.mark.parametrize(
     ("text", "why"),
     [

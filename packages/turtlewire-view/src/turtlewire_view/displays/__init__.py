@@ -7,9 +7,9 @@ module             contents
 `options`          the options of displays, and the user's choices
 `numeric`          poses, points and colours of messages as arrays
 `poses`            PoseStamped, PoseWithCovarianceStamped, PoseArray, Odometry, Path
-`shapes`           PolygonStamped, PointStamped, GridCells, Range, CameraInfo
-`measurement`      Temperature, RelativeHumidity, FluidPressure, Illuminance;
-                   TwistStamped, AccelStamped, WrenchStamped
+`shapes`           PolygonStamped, PointStamped, GridCells, Range, CameraInfo; Temperature,
+                   RelativeHumidity, FluidPressure, Illuminance; TwistStamped, AccelStamped,
+                   WrenchStamped
 `points`           the common base of point clouds and scans; colours from values
 `point_cloud`      PointCloud2 and PointCloud
 `laser_scan`       LaserScan
@@ -43,7 +43,6 @@ def display_types() -> dict[str, type[Display]]:
     from turtlewire_view.displays.interactive_markers import InteractiveMarkersDisplay
     from turtlewire_view.displays.laser_scan import LaserScanDisplay
     from turtlewire_view.displays.marker import MarkerDisplay
-    from turtlewire_view.displays.measurement import MeasurementDisplay, TwistOrWrenchDisplay
     from turtlewire_view.displays.occupancy_grid import OccupancyGridDisplay
     from turtlewire_view.displays.point_cloud import OldPointCloudDisplay, PointCloudDisplay
     from turtlewire_view.displays.poses import (
@@ -56,9 +55,11 @@ def display_types() -> dict[str, type[Display]]:
     from turtlewire_view.displays.shapes import (
         CameraInfoDisplay,
         GridCellsDisplay,
+        MeasurementDisplay,
         PointDisplay,
         PolygonDisplay,
         RangeDisplay,
+        TwistOrWrenchDisplay,
     )
 
     return {

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import count
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -153,6 +154,8 @@ class Display:
         self.topic = ""
         self.asks_again = False
         self._clock = clock
+        self._numbers = count()
+        self._parts: list[str] = []
         self._warnings: list[str] = []
 
     def set_options(self, options: Mapping[str, object]) -> None:
@@ -252,6 +255,15 @@ class Display:
     def warn(self, text: str) -> None:
         """Say in the status what of the message is not drawn as sent."""
         self._warnings.append(text)
+
+    def _keep(self, content: Content, most: float) -> list[Output]:
+        """Return the content as a new part, without the oldest ones of more than ``most``."""
+        part = str(next(self._numbers))
+        self._parts.append(part)
+        outputs: list[Output] = [replace(content, part=part)]
+        while len(self._parts) > most:
+            outputs.append(Removal(self._parts.pop(0)))
+        return outputs
 
     def _outputs(self, message: Any) -> list[Output]:
         raise NotImplementedError

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from itertools import count
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -50,8 +49,6 @@ class EffortDisplay(Display):
         super().__init__(options, **keywords)
         self._joints: dict[str, Joint] | None = None
         self._problem = ""
-        self._numbers = count()
-        self._parts: list[str] = []
 
     def topics(self, type_name: str) -> dict[str, str]:
         """Return the topics of the robot's description and of the joint states."""
@@ -102,13 +99,8 @@ class EffortDisplay(Display):
             self.warn(
                 f"the robot has none of the {len(message.name)} joints, such as '{message.name[0]}'"
             )
-        part = str(next(self._numbers))
-        self._parts.append(part)
         joints = [entry for item in known.items() if (entry := self._entry(*item)) is not None]
-        outputs: list[Output] = [Content({"joints": joints}, part=part)]
-        while len(self._parts) > self.options.number("history_length"):
-            outputs.append(Removal(self._parts.pop(0)))
-        return outputs
+        return self._keep(Content({"joints": joints}), self.options.number("history_length"))
 
     def _entry(self, name: str, effort: float) -> dict[str, Any] | None:
         """Return the drawing of a joint; None if its effort is not finite."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import count
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -57,7 +56,6 @@ class MarkerDisplay(Display):
 
     def __init__(self, options: Mapping[str, object] | None = None, **keywords: Any) -> None:
         super().__init__(options, **keywords)
-        self._numbers = count()
         self._held: dict[_Key, _Held] = {}
         self._sizes: dict[str, int] = {}  # markers in each part
 
@@ -75,7 +73,9 @@ class MarkerDisplay(Display):
                 groups.clear()
                 added.clear()
                 new.clear()
-                outputs = [Content(self._clear(), event=True)]
+                for held in list(self._held):
+                    self._forget(held)
+                outputs = [Content({"clear": True}, event=True)]
             elif marker.action == _DELETE:
                 added.discard(key)
                 new.discard(key)
@@ -137,11 +137,6 @@ class MarkerDisplay(Display):
             entries.append({"key": list(key), "lifetime": lifetime, **own})
         header = {"markers": entries}
         return Content(header, arrays, frame_id, stamp_ns, part, locked=locked, packages=packages)
-
-    def _clear(self) -> dict[str, Any]:
-        for key in list(self._held):
-            self._forget(key)
-        return {"clear": True}
 
     def _hold(self, key: _Key, part: str, lifetime: float) -> None:
         self._forget(key)

@@ -9,6 +9,7 @@ import numpy as np
 
 from turtlewire_view.displays.content import UnusableMessageError
 from turtlewire_view.displays.numeric import (
+    LARGEST,
     color_bytes,
     finite_points,
     finite_pose,
@@ -129,7 +130,6 @@ _GROUPS = {
 #: Items of which some may be omitted evenly if there are too many; lines are truncated instead.
 _THINNED = frozenset({"cube_list", "sphere_list", "points", "line_list", "triangle_list"})
 _LONGEST_TEXT = 10_000
-_LARGEST_SCALE = 1e9
 
 
 class MarkerShape(NamedTuple):
@@ -200,7 +200,7 @@ def _ignore(_: str) -> None:
 
 def _scale_of(marker: Any, shape: str, warn: Callable[[str], None]) -> list[float]:
     scale = [float(marker.scale.x), float(marker.scale.y), float(marker.scale.z)]
-    if not all(abs(value) < _LARGEST_SCALE for value in scale):
+    if not all(abs(value) < LARGEST for value in scale):
         raise UnusableMessageError(f"the scale {scale} is not finite or too large")
     if shape in {"line_strip", "line_list"}:
         needed = scale[:1]

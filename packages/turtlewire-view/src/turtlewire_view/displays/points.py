@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping
-from itertools import count
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -132,7 +131,6 @@ class PointsDisplay(Display):
 
     def __init__(self, options: Mapping[str, object] | None = None, **keywords: Any) -> None:
         super().__init__(options, **keywords)
-        self._numbers = count()
         self._kept: deque[_Kept] = deque()
         self._came_ns: int | None = None
 

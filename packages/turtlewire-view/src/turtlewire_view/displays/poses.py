@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from itertools import count
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,18 +13,22 @@ from turtlewire_view.displays.content import (
     Content,
     Display,
     Output,
-    Removal,
     UnusableMessageError,
+    Vector,
     frame_of,
     stamp_ns_of,
 )
 from turtlewire_view.displays.numeric import (
+    LARGEST,
     anchored,
     finite_pose,
     pose_rows,
     spread,
     warn_of_quaternions,
 )
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 __all__ = ["OdometryDisplay", "PathDisplay", "PoseArrayDisplay", "PoseDisplay", "covariance_shape"]
 
@@ -58,8 +61,6 @@ class OdometryDisplay(PoseDisplay):
 
     def __init__(self, options: Mapping[str, object] | None = None, **keywords: Any) -> None:
         super().__init__(options, **keywords)
-        self._numbers = count()
-        self._parts: list[str] = []
         self._last: tuple[str, list[float]] | None = None
 
     def _outputs(self, message: Any) -> list[Output]:
@@ -67,12 +68,8 @@ class OdometryDisplay(PoseDisplay):
         if self._last is not None and not self._moved(frame_id, header["at"]):
             return []
         self._last = (frame_id, header["at"])
-        part = str(next(self._numbers))
-        self._parts.append(part)
-        outputs: list[Output] = [Content(header, {}, frame_id, stamp_ns_of(message), part)]
-        while len(self._parts) > self.options.number("keep"):
-            outputs.append(Removal(self._parts.pop(0)))
-        return outputs
+        content = Content(header, {}, frame_id, stamp_ns_of(message))
+        return self._keep(content, self.options.number("keep"))
 
     def _moved(self, frame_id: str, pose: list[float]) -> bool:
         assert self._last is not None
@@ -91,26 +88,37 @@ class PoseArrayDisplay(Display):
     kind = "pose_array"
 
     def _outputs(self, message: Any) -> list[Output]:
-        kept = [message.poses[at] for at in spread(len(message.poses), self.budget)]
-        rows = [
-            (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
-            for p, q in ((pose.position, pose.orientation) for pose in kept)
-        ]
-        poses, finite = pose_rows(rows)
-        if kept and not finite.any():
+        arrays, anchor = _drawn_poses(self, message.poses, rotations=True)
+        header = {"count": len(arrays["points"])}
+        if message.poses and not header["count"]:
             raise UnusableMessageError(f"none of the {len(message.poses)} poses is finite")
-        if not finite.all():
-            self.warn(f"{np.count_nonzero(~finite)} of {len(message.poses)} poses are not finite")
-        warn_of_quaternions(rows, self.warn)
-        if len(kept) < len(message.poses):
-            self.warn(f"{len(kept)} of {len(message.poses)} poses are drawn")
-        points, anchor = anchored(poses[:, :3])
-        arrays = {"points": points, "rotations": poses[:, 3:].astype(np.float32)}
-        header = {"count": len(points)}
         return [Content(header, arrays, frame_of(message), stamp_ns_of(message), anchor=anchor)]
 
 
-_LARGEST = 1e9
+def _drawn_poses(
+    display: Display, sent: Sequence[Any], *, rotations: bool
+) -> tuple[dict[str, NDArray[Any]], Vector]:
+    """Return the arrays of the finite poses within the budget, and the anchor of their points.
+
+    Poses may be stamped. The display warns of the other ones.
+    """
+    kept = [getattr(sent[at], "pose", sent[at]) for at in spread(len(sent), display.budget)]
+    rows = [
+        (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
+        for p, q in ((pose.position, pose.orientation) for pose in kept)
+    ]
+    poses, finite = pose_rows(rows)
+    if not finite.all():
+        display.warn(f"{np.count_nonzero(~finite)} of {len(sent)} poses are not finite")
+    if rotations:
+        warn_of_quaternions(rows, display.warn)
+    if len(kept) < len(sent):
+        display.warn(f"{len(kept)} of {len(sent)} poses are drawn")
+    points, anchor = anchored(poses[:, :3])
+    arrays = {"points": points}
+    if rotations:
+        arrays["rotations"] = poses[:, 3:].astype(np.float32)
+    return arrays, anchor
 
 
 def covariance_shape(covariance: Any, warn: Callable[[str], None]) -> dict[str, Any] | None:
@@ -128,7 +136,7 @@ def covariance_shape(covariance: Any, warn: Callable[[str], None]) -> dict[str, 
     matrix = np.asarray(covariance, dtype=np.float64).reshape(6, 6)
     if not matrix.any():
         return None
-    if not (np.abs(np.nan_to_num(matrix, nan=math.inf)) < _LARGEST).all():
+    if not (np.abs(np.nan_to_num(matrix, nan=math.inf)) < LARGEST).all():
         warn("the covariance holds a number that is not finite or too large")
         return None
     position = (matrix[:3, :3] + matrix[:3, :3].T) / 2
@@ -159,34 +167,9 @@ class PathDisplay(Display):
     kind = "path"
     replays = True
 
-    def __init__(self, options: Mapping[str, object] | None = None, **keywords: Any) -> None:
-        super().__init__(options, **keywords)
-        self._numbers = count()
-        self._parts: list[str] = []
-
     def _outputs(self, message: Any) -> list[Output]:
-        frame_id = frame_of(message)
-        kept = [message.poses[at].pose for at in spread(len(message.poses), self.budget)]
-        rows = [
-            (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
-            for p, q in ((pose.position, pose.orientation) for pose in kept)
-        ]
-        poses, finite = pose_rows(rows)
-        if not finite.all():
-            self.warn(f"{np.count_nonzero(~finite)} of {len(message.poses)} poses are not finite")
-        if len(kept) < len(message.poses):
-            self.warn(f"{len(kept)} of {len(message.poses)} poses are drawn")
-        points, anchor = anchored(poses[:, :3])
-        arrays = {"points": points}
-        if self.options.text("pose_style") != "none":
-            warn_of_quaternions(rows, self.warn)
-            arrays["rotations"] = poses[:, 3:].astype(np.float32)
-        part = str(next(self._numbers))
-        header = {"count": len(points)}
-        self._parts.append(part)
-        outputs: list[Output] = [
-            Content(header, arrays, frame_id, stamp_ns_of(message), part, anchor)
-        ]
-        while len(self._parts) > self.options.number("buffer_length"):
-            outputs.append(Removal(self._parts.pop(0)))
-        return outputs
+        rotations = self.options.text("pose_style") != "none"
+        arrays, anchor = _drawn_poses(self, message.poses, rotations=rotations)
+        header = {"count": len(arrays["points"])}
+        content = Content(header, arrays, frame_of(message), stamp_ns_of(message), anchor=anchor)
+        return self._keep(content, self.options.number("buffer_length"))

@@ -25,6 +25,7 @@ from turtlewire_view.displays.content import (
     Removal,
     UnusableMessageError,
 )
+from turtlewire_view.displays.numeric import LARGEST
 from turtlewire_view.meshes import file_of_package, mesh_address
 
 if TYPE_CHECKING:
@@ -41,14 +42,13 @@ __all__ = [
 #: Density of lead [kg/m^3].
 _LEAD = 11340.0
 _INERTIA_COLOR = [255, 0, 0, 255]
-_LARGEST = 1e9
 
 
 def inertia_shapes(link: Link) -> dict[str, list[dict[str, Any]]]:
     """``mass`` and ``inertia`` of a link: each a list of one shape, or of none."""
     inertial = link.inertial
     origin = None if inertial is None else pose_of_origin(inertial.origin)
-    if inertial is None or origin is None or not 0 < inertial.mass < _LARGEST:
+    if inertial is None or origin is None or not 0 < inertial.mass < LARGEST:
         return {"mass": [], "inertia": []}
     radius = (0.75 * inertial.mass / (math.pi * _LEAD)) ** (1 / 3)
     ball = {"shape": "sphere", "size": [radius], "color": _INERTIA_COLOR, "origin": origin}
@@ -58,7 +58,7 @@ def inertia_shapes(link: Link) -> dict[str, list[dict[str, Any]]]:
 
 def pose_of_origin(pose: Pose) -> list[float] | None:
     """x, y, z, qx, qy, qz, qw of an origin; None if it is not finite."""
-    if not all(abs(value) < _LARGEST for value in (*pose.xyz, *pose.rpy)):
+    if not all(abs(value) < LARGEST for value in (*pose.xyz, *pose.rpy)):
         return None
     return [*pose.xyz, *pose.quaternion]
 
@@ -79,7 +79,7 @@ def _box(inertial: Inertial, origin: list[float]) -> dict[str, Any] | None:
     if np.linalg.det(axes) < 0:
         axes[:, 0] *= -1
     squares = 6 / inertial.mass * (moments.sum() - 2 * moments)
-    if moments.min() <= 0 or squares.min() < 0 or squares.max() > _LARGEST:
+    if moments.min() <= 0 or squares.min() < 0 or squares.max() > LARGEST:
         return None
     turned = quaternion_from_matrix(matrix_from_quaternion(origin[3:]) @ axes)
     return {
@@ -273,5 +273,5 @@ class _Reader:
 
 
 def _sized(shape: str, size: list[float], **more: Any) -> dict[str, Any] | None:
-    usable = all(abs(value) < _LARGEST for value in size)
+    usable = all(abs(value) < LARGEST for value in size)
     return {"shape": shape, "size": size, **more} if usable else None

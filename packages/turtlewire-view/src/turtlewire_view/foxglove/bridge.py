@@ -172,12 +172,10 @@ class Bridge:
             "advertiseServices": "services",
         }
         for op, items in change.items():
-            self._send_all(protocol.text(op, **{fields[op]: items}))
+            frame = protocol.text(op, **{fields[op]: items})
+            for client in self.clients:
+                client.outbox.send(frame)
         self._tell_connections(connections_of(endpoints))
-
-    def _send_all(self, frame: str) -> None:
-        for client in self.clients:
-            client.outbox.send(frame)
 
     def _tell_connections(self, now: GraphConnections) -> None:
         update = difference(self._connections, now)

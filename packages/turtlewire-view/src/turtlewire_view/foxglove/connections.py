@@ -40,7 +40,12 @@ def connections_of(endpoints: Iterable[EndpointInfo]) -> GraphConnections:
         elif end.topic.startswith("/"):
             kind = published if end.kind == "publisher" else subscribed
             kind.setdefault(end.topic, set()).add(node)
-    return GraphConnections(*(_sorted(kind) for kind in (published, subscribed, served)))
+    return GraphConnections(
+        *(
+            {name: sorted(nodes) for name, nodes in kind.items()}
+            for kind in (published, subscribed, served)
+        )
+    )
 
 
 def difference(before: GraphConnections, now: GraphConnections) -> dict[str, Any]:
@@ -71,10 +76,6 @@ def _node_of(end: EndpointInfo) -> str:
     if end.node is None:
         return end.gid.hex()
     return names.fully_qualified_node_name(end.node.name, end.node.namespace)
-
-
-def _sorted(nodes: dict[str, set[str]]) -> _Nodes:
-    return {name: sorted(members) for name, members in nodes.items()}
 
 
 #: Changes come in groups; time to wait for further changes after the first one [s].

@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.tf import svg
 from turtlewire.wire.qos import INFINITE_NS, History
-from turtlewire_view.graph.diagram import make_diagram
-from turtlewire_view.graph.layout import TEXT_SIZE, make_layout
+from turtlewire_view.graph.layout import TEXT_SIZE, make_diagram, make_layout
 from turtlewire_view.graph.picture import UNKNOWN, select
 
 if TYPE_CHECKING:
     from turtlewire.wire.qos import QoS
-    from turtlewire_view.graph.diagram import Arrow
-    from turtlewire_view.graph.layout import Layout
+    from turtlewire_view.graph.layout import Arrow, Layout
     from turtlewire_view.graph.picture import Picture, Selection
 
 __all__ = ["as_data", "as_dot", "as_json", "as_svg", "words_of", "writer_for"]
@@ -113,7 +111,8 @@ def as_svg(picture: Picture, selection: Selection) -> str:
         zip(diagram.arrows, layout.ways, strict=True), key=lambda pair: bool(pair[0].mismatches)
     )
     for arrow, way in ways:
-        title = "; ".join([", ".join(arrow.topics), *_reasons(shown, arrow)])
+        reasons = (shown.mismatches[index].reason for index in arrow.mismatches)
+        title = "; ".join([", ".join(arrow.topics), *reasons])
         colour, width = (_BAD, 2.0) if arrow.mismatches else (_ARROW, 1.2)
         parts.append(svg.path(way.path, colour, width, title=title))
     parts += _boxes(layout, [(box.kind, bool(box.note)) for box in diagram.boxes])
@@ -142,10 +141,6 @@ def _boxes(layout: Layout, looks: list[tuple[str, bool]]) -> list[str]:
         middle, base = x + width / 2, y + height / 2 + TEXT_SIZE * 0.36
         parts.append(svg.text(middle, base, label, TEXT_SIZE, _INK, ' text-anchor="middle"'))
     return parts
-
-
-def _reasons(picture: Picture, arrow: Arrow) -> list[str]:
-    return [picture.mismatches[index].reason for index in arrow.mismatches]
 
 
 def _known(node: str) -> str | None:

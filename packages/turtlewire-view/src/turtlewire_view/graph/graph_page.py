@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.web import Server
 from turtlewire.web.desktop import wanted_port
-from turtlewire_view.graph.diagram import make_diagram
 from turtlewire_view.graph.files import as_data
-from turtlewire_view.graph.layout import make_layout
+from turtlewire_view.graph.layout import make_diagram, make_layout
 from turtlewire_view.graph.measuring import Measuring
 from turtlewire_view.graph.picture import Selection, read_graph, select
 from turtlewire_view.graph.session import GraphSession

@@ -167,8 +167,9 @@ def select(picture: Picture, selection: Selection) -> Picture:
     wanted, unwanted = _words(selection.words)
 
     def may_be_shown(name: str) -> bool:
+        is_of_debugging = name in _DEBUG_TOPICS or is_hidden(name) or _DEBUG_NODE.match(name)
         return not any(word in name for word in unwanted) and (
-            selection.debug or not _is_of_debugging(name)
+            selection.debug or not is_of_debugging
         )
 
     def is_found(name: str) -> bool:
@@ -219,7 +220,3 @@ def _words(text: str) -> tuple[list[str], list[str]]:
     words = text.split()
     unwanted = [word[1:] for word in words if word.startswith("-")]
     return [word for word in words if not word.startswith("-")], [each for each in unwanted if each]
-
-
-def _is_of_debugging(name: str) -> bool:
-    return name in _DEBUG_TOPICS or is_hidden(name) or _DEBUG_NODE.match(name) is not None

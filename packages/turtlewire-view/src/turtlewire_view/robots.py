@@ -1,21 +1,28 @@
-"""Robots that are shown by a path, or by a name of the PyPI package ``robot_descriptions``."""
+"""Robots by path, or by name in ``robot_descriptions``; and their joints, which pages move."""
 
 from __future__ import annotations
 
 import errno
+import math
 import os
 import re
+import threading
 from collections.abc import Mapping
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.path_arguments import near_path
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.urdf import Robot
+from turtlewire.urdf.joints import followers_of
+from turtlewire.web.commands import is_finite_number
 from turtlewire_view.package_folders import PackageFolders
 
-__all__ = ["FoundRobot", "find_robot"]
+if TYPE_CHECKING:
+    from turtlewire.tf.buffer import Buffer
+
+__all__ = ["FoundRobot", "RobotJoints", "find_robot", "zero_of"]
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_]*")
 _SUFFIX = "_description"
@@ -110,3 +117,101 @@ def _without_xacro(name: str, module: Any, packages: Mapping[str, str]) -> str:
 
 def _nothing_named(what: str, advice: str) -> FileNotFoundError:
     return FileNotFoundError(errno.ENOENT, f"No such file or directory{advice}", what)
+
+
+class RobotJoints:
+    """The joints of a robot; all pages share them. Thread-safe.
+
+    Args:
+        robot: The robot.
+        positions: The position of each free joint [rad or m].
+        buffer: Has the transforms of all links, and gets new ones.
+    """
+
+    def __init__(self, robot: Robot, positions: dict[str, float], buffer: Buffer) -> None:
+        self._robot = robot
+        self._positions = positions
+        self._buffer = buffer
+        self._lock = threading.Lock()
+        self._followers = followers_of(robot)
+        self._moving = [each for each in robot.joints.values() if each.moves]
+
+    def description(self) -> list[dict[str, Any]]:
+        """Return name, kind, limits and formula of each joint, in the order of the file."""
+        return [self._describe(each.name, each.type) for each in self._moving]
+
+    def positions(self) -> list[float]:
+        """Return where the joints of :meth:`description` are [rad or m]."""
+        with self._lock:
+            return [self._position(each.name) for each in self._moving]
+
+    def move(self, positions: Mapping[str, Any]) -> None:
+        """Move joints, within their limits.
+
+        Args:
+            positions: Positions of free joints by name [rad or m].
+
+        Raises:
+            ValueError: The robot has no such joint, or a position is not a finite number.
+        """
+        for name, position in positions.items():
+            if name not in self._positions:
+                near = did_you_mean(name, self._positions)
+                raise ValueError(f"the robot has no free joint {name!r:.100}. {near}".rstrip())
+            if not is_finite_number(position):
+                raise ValueError(
+                    f"the position of {name!r} must be a number, got {position!r:.100}"
+                )
+        with self._lock:
+            for name, position in positions.items():
+                low, high = _limits(self._robot, name)
+                self._positions[name] = min(max(float(position), low), high)
+            self._write()
+
+    def _write(self) -> None:
+        moved = self._robot.transforms(self._positions)
+        for joint in self._moving:
+            link = moved.lookup_transform(joint.parent, joint.child)
+            self._buffer.set_static_transform(
+                joint.parent, joint.child, link.translation, link.rotation
+            )
+
+    def _position(self, name: str) -> float:
+        follower = self._followers.get(name)
+        if follower is None:
+            return self._positions[name]
+        return self._positions[follower.leader] * follower.multiplier + follower.offset
+
+    def _describe(self, name: str, kind: str) -> dict[str, Any]:
+        follower = self._followers.get(name)
+        if follower is not None:
+            formula = {
+                "parent": follower.leader,
+                "factor": follower.multiplier,
+                "offset": follower.offset,
+            }
+            return {"name": name, "kind": kind, "mimic": formula}
+        low, high = _limits(self._robot, name)
+        limits = self._robot.joints[name].limits
+        return {
+            "name": name,
+            "kind": kind,
+            "mimic": None,
+            "minimum": low,
+            "maximum": high,
+            "zero": zero_of(self._robot, name),
+            "max_velocity": limits.velocity if limits and math.isfinite(limits.velocity) else None,
+        }
+
+
+def _limits(robot: Robot, name: str) -> tuple[float, float]:
+    """Return the least and the greatest position; a continuous joint makes one turn."""
+    column = robot.joint_names.index(name)
+    low, high = float(robot.lower[column]), float(robot.upper[column])
+    return (low, high) if math.isfinite(low) and math.isfinite(high) else (-math.pi, math.pi)
+
+
+def zero_of(robot: Robot, name: str) -> float:
+    """Return the position of a joint at first: 0, or the middle of its limits."""
+    low, high = _limits(robot, name)
+    return 0.0 if low <= 0.0 <= high else (low + high) / 2
