@@ -9,13 +9,11 @@ import numpy as np
 import pytest
 
 from turtlewire import msg
-from turtlewire_view import Viewer
 from turtlewire_view.displays import displays_of, further_kinds
 from turtlewire_view.displays.content import Content
 from turtlewire_view.displays.depth_cloud import DepthCloudDisplay
 
 from .looking_down import BLUE, RED, stamped
-from .still_source import StillSource
 
 get = msg.get_message
 IMAGE, INFO, COLOR = "/eye/depth", "/eye/camera_info", "/eye/color"
@@ -48,6 +46,12 @@ def info(width=2, height=1, fx=1.0, **values):
 def make(**options):
     display = DepthCloudDisplay(options)
     display.topic = IMAGE
+    return display
+
+
+def make_with_info(**options):
+    display = make(**options)
+    display.take(INFO, info())
     return display
 
 
@@ -131,8 +135,7 @@ def test_points_have_the_colours_of_the_image_of_their_time():
 
 
 def test_a_slow_colour_image_delays_no_points():
-    display = make(color_topic=COLOR)
-    display.take(INFO, info())
+    display = make_with_info(color_topic=COLOR)
     display.take(COLOR, colors([[1, 2, 3], [4, 5, 6]], stamp_s=1))
     assert display.take(IMAGE, depth([[1000, 1000]], 2)) == []
     outputs = display.take(IMAGE, depth([[1000, 1000]], 3))
@@ -140,8 +143,7 @@ def test_a_slow_colour_image_delays_no_points():
 
 
 def test_a_finer_colour_image_is_sampled():
-    display = make(color_topic=COLOR)
-    display.take(INFO, info())
+    display = make_with_info(color_topic=COLOR)
     fine = [[[1, 1, 1], [2, 2, 2], [3, 3, 3], [4, 4, 4]]] * 2
     display.take(COLOR, colors(*fine))
     assert colors_of(display.take(IMAGE, depth([[1000, 1000]]))) == [[1, 1, 1], [3, 3, 3]]
@@ -156,8 +158,7 @@ def test_a_finer_colour_image_is_sampled():
     ],
 )
 def test_a_wrong_colour_image_is_named(color, line):
-    display = make(color_topic=COLOR)
-    display.take(INFO, info())
+    display = make_with_info(color_topic=COLOR)
     color.header.stamp.sec = 9
     display.take(COLOR, color)
     (status,) = display.take(IMAGE, depth([[1000, 1000]]))
@@ -172,8 +173,7 @@ def test_a_wrong_colour_image_is_named(color, line):
     ],
 )
 def test_images_without_depths_are_refused(message, line):
-    display = make()
-    display.take(INFO, info(fx=1.0))
+    display = make_with_info()
     (status,) = display.take(IMAGE, message)
     assert (status.level, status.text[: len(line)]) == ("error", line)
 
@@ -194,8 +194,7 @@ def test_wrong_numbers_of_a_camera_are_named(fx, line):
 
 
 def test_a_short_depth_image_is_named():
-    display = make()
-    display.take(INFO, info())
+    display = make_with_info()
     short = depth([[1000, 1000]])
     short.data = b"12"
     (status,) = display.take(IMAGE, short)
@@ -203,18 +202,11 @@ def test_a_short_depth_image_is_named():
 
 
 def test_points_stay_for_the_decay_time_and_are_coloured_by_the_axis():
-    display = make(decay_time=5, color="axis")
-    display.take(INFO, info())
+    display = make_with_info(decay_time=5, color="axis")
     parts = [display.take(IMAGE, depth([[1000, 2000]]))[0].part for _ in range(2)]
     assert parts == ["0", "1"]
     content, _ = make_with_info(color="flat", flat_color=[1, 2, 3]).take(IMAGE, depth([[1, 2]]))
     assert content.arrays["rgba"].tolist() == [[1, 2, 3, 255]] * 2
-
-
-def make_with_info(**options):
-    display = make(**options)
-    display.take(INFO, info())
-    return display
 
 
 def test_a_depth_cloud_is_offered_for_depths_with_a_camera():
@@ -223,26 +215,6 @@ def test_a_depth_cloud_is_offered_for_depths_with_a_camera():
     kinds = further_kinds("/eye/image", "sensor_msgs/msg/Image", ["/eye/camera_info"])
     assert kinds == ["camera"]
     assert list(displays_of("depth_cloud")) == ["sensor_msgs/msg/Image"]
-
-
-def test_a_page_chooses_a_colour_image_later(open_view_page):
-    source = StillSource()
-    source.put_frame("map", "eye", (0, 0, 1))
-    source.offer(IMAGE, depth([[1000, 1000]]))
-    source.offer(INFO, info())
-    source.offer(COLOR, colors([[1, 2, 3], [4, 5, 6]]))
-    with Viewer(source, "map", port=0) as viewer:
-        page = open_view_page(viewer)
-        page.send("add", id="a", kind="depth_cloud", topic=IMAGE, options={})
-        assert page.wait_for("display")["shown"] == 2
-        page.send("options", id="a", options={"color_topic": COLOR})
-
-        def is_colored(packet):
-            return packet["arrays"]["rgba"].tolist() == [[1, 2, 3, 255], [4, 5, 6, 255]]
-
-        page.wait_for("display", is_colored)
-        page.send("options", id="a", options={"color_topic": "", "color": "flat"})
-        page.wait_for("display", lambda p: p["arrays"]["rgba"].tolist() == [[255] * 4] * 2)
 
 
 def test_a_topic_of_colours_that_cannot_be_subscribed_is_named(viewer, page):

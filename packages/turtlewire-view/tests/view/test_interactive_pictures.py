@@ -230,15 +230,7 @@ def test_a_held_control_is_kept_alive(server):
     server.show(knob(control("move_axis")))
     server.scene.expect_red((0.6, 0, 0))
     server.press(0.7, 0, 0)
-    alive = "async () => { await new Promise((done) => setTimeout(done, 100)); return true; }"
-    for _ in range(600):
-        events = [
-            msg.deserialize(Feedback, cdr).event_type for _, _, cdr in server.source.published
-        ]
-        if events.count(KEEP_ALIVE) >= 2:
-            break
-        server.scene.page.evaluate(alive)
-    assert events.count(KEEP_ALIVE) >= 2
+    server.wait_for(KEEP_ALIVE, 2)
     server.mouse.up()
     server.wait_for(UP)
 
