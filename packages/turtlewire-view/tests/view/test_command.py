@@ -25,6 +25,11 @@ def address_of(program):
     return program.wait_for(r"The view is at http(://127\.0\.0\.1:\d+/)")[0][1]
 
 
+def end(program):
+    program.process.send_signal(signal.SIGTERM)
+    assert program.wait() == 0
+
+
 def test_it_tells_its_address_serves_and_ends_at_ctrl_c(view):
     program = view("--port", "0", terminal=True)
     with connect(f"ws{address_of(program)}live", max_size=None) as page:
@@ -39,8 +44,7 @@ def test_a_port_in_use_is_said(view):
         port = server.getsockname()[1]
         program = view("--port", str(port))
         assert not address_of(program).endswith(f":{port}/")
-        program.process.send_signal(signal.SIGTERM)
-        assert program.wait() == 0
+        end(program)
     assert program.text.startswith(f"Port {port} is in use: the view uses a free port\n")
 
 
@@ -49,8 +53,7 @@ def test_a_bag_is_shown_without_the_network(view, tmp_path):
     program = view(bag, "--port", "0", environment={"ROS_DOMAIN_ID": "9999"})
     with connect(f"ws{address_of(program)}live", max_size=None) as page:
         assert decode_packet(page.recv())["source"] == {"kind": "bag", "name": "made"}
-    program.process.send_signal(signal.SIGTERM)
-    assert program.wait() == 0
+    end(program)
 
 
 def test_a_robot_is_shown_with_meshes_of_a_named_package(view, tmp_path):
@@ -71,8 +74,7 @@ def test_a_robot_is_shown_with_meshes_of_a_named_package(view, tmp_path):
     assert shown == {"name": mesh, "url": "/mesh/arm/tip.stl"}
     with urlopen(f"http{address}mesh/arm/tip.stl") as answer:
         assert answer.read() == b"tip"
-    program.process.send_signal(signal.SIGTERM)
-    assert program.wait() == 0
+    end(program)
 
 
 def test_a_fixed_frame_that_does_not_exist_is_hinted_at(view, tmp_path):
@@ -83,8 +85,7 @@ def test_a_fixed_frame_that_does_not_exist_is_hinted_at(view, tmp_path):
         packets = map(decode_packet, page)
         status = next(each for each in packets if each["type"] == "status")
     assert (status["level"], status["text"]) == ("warn", hint)
-    program.process.send_signal(signal.SIGTERM)
-    assert program.wait() == 0
+    end(program)
     assert program.text.startswith(f"{hint}\n")
 
 
@@ -101,8 +102,7 @@ def test_a_file_of_rviz_is_what_the_page_shows_first(view, tmp_path):
     (shown,) = packets[1]["displays"]
     assert (packets[1]["type"], packets[1]["fixed"], packets[1]["first"]) == ("view", "odom", True)
     assert (shown["kind"], shown["topic"]) == ("path", "/plan")
-    program.process.send_signal(signal.SIGTERM)
-    assert program.wait() == 0
+    end(program)
 
 
 @pytest.mark.parametrize(
@@ -134,8 +134,7 @@ def test_two_views_have_names_of_their_own(view):
     for program in (first, second):
         address_of(program)
     for program in (first, second):
-        program.process.send_signal(signal.SIGTERM)
-        assert program.wait() == 0
+        end(program)
         assert "another process runs a node" not in program.text
 
 

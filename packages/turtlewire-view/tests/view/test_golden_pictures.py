@@ -1,9 +1,7 @@
 """Each display's picture in light, and below it in dark, as somebody found it good.
 
 Pictures are compared by the mean colours of blocks. To renew those in ``tests/golden/displays``
-after a wanted change, and then look at them::
-
-    TURTLEWIRE_RENEW_PICTURES=1 scripts/test tests/view/test_golden_pictures.py
+after a wanted change, and then look at them, set ``TURTLEWIRE_RENEW_PICTURES=1`` for this module.
 """
 
 import base64
