@@ -9,6 +9,7 @@ from collections import deque
 from typing import TYPE_CHECKING, overload
 
 from rclpy._typing import MsgT
+from rclpy.logging import get_logger
 from turtlewire.distro import KILTED, LYRICAL, since
 
 from .simple_filter import OneMessageFilter
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from .simple_filter import SimpleFilter
 
+_LOGGER = get_logger("message_filters_cache")
 _DEPRECATED_LASTEST_TIME = "Deprecated in favour of :py:classmethod:Cache.getLatestTime:."
 
 
@@ -60,9 +62,7 @@ class Cache(OneMessageFilter[MsgT]):
 
     def add(self, msg: MsgT) -> None:
         """Store a message, and pass it on."""
-        stamp = stamp_of(
-            msg, allow_headerless=self.allow_headerless, logger="message_filters_cache"
-        )
+        stamp = stamp_of(msg, allow_headerless=self.allow_headerless, logger=_LOGGER)
         if stamp is None:
             return
         with self._lock:

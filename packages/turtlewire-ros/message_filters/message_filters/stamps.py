@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rclpy.clock import Clock, ClockType
-from rclpy.logging import get_logger
+from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.time import Time
 
 _HEADERLESS = (
@@ -16,13 +16,13 @@ _HEADERLESS = (
 )
 
 
-def stamp_of(message: Any, *, allow_headerless: bool, logger: str) -> Time | None:
+def stamp_of(message: Any, *, allow_headerless: bool, logger: RcutilsLogger) -> Time | None:
     """Return the stamp of a message.
 
     Args:
         message: A message with or without a ``header``.
         allow_headerless: Give messages without a stamp the present time.
-        logger: Name of the logger that warns if they are not allowed.
+        logger: Warns if they are not allowed, at most every five seconds.
 
     Returns:
         The time; None to drop the message.
@@ -31,6 +31,6 @@ def stamp_of(message: Any, *, allow_headerless: bool, logger: str) -> Time | Non
     if stamp is None:
         if allow_headerless:
             return Clock(clock_type=ClockType.ROS_TIME).now()
-        get_logger(logger).warning(_HEADERLESS, throttle_duration_sec=5.0)
+        logger.warning(_HEADERLESS, throttle_duration_sec=5.0)
         return None
     return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)

@@ -9,12 +9,13 @@ from typing import Any
 
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
+from rclpy.logging import get_logger
 from turtlewire.distro import KILTED, since
 
 from .simple_filter import SimpleFilter
 from .stamps import stamp_of
 
-_LOGGER = "message_filters_synchronizer"
+_LOGGER = get_logger("message_filters_synchronizer")
 
 
 class TimeSynchronizer(SimpleFilter):

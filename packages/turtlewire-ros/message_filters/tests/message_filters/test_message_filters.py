@@ -17,6 +17,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import ClockType, ROSClock
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
@@ -243,12 +244,15 @@ def test_sets_by_the_time_of_arrival(collected):
 @pytest.mark.parametrize(
     "make", [lambda fs: TimeSynchronizer(fs, 5), lambda fs: ApproximateTimeSynchronizer(fs, 5, 0.1)]
 )
-def test_messages_without_a_stamp_are_refused(make, collected, capfd):
+def test_messages_without_a_stamp_are_refused(make, collected, capfd, monkeypatch):
     left = SimpleFilter()
     make([left]).registerCallback(collected)
-    left.signalMessage(String(data="no header"))
+    # Another test may have warned already, and the warning comes at most every five seconds.
+    monkeypatch.setattr("message_filters.time_synchronizer._LOGGER", get_logger("tested"))
+    for _ in range(3):
+        left.signalMessage(String(data="no header"))
     assert collected == []
-    assert "allow_headerless" in capfd.readouterr().err
+    assert capfd.readouterr().err.count("can not use message filters") == 1
 
 
 def test_messages_without_a_stamp_can_be_allowed(collected):
@@ -320,9 +324,10 @@ def test_of_equal_stamps_the_cache_forgets_what_came_first():
 
 def test_the_cache_and_messages_without_a_stamp(capfd):
     cache = Cache()
-    cache.add(String())
+    for _ in range(3):
+        cache.add(String())
     assert cache.getLast() is None
-    assert "allow_headerless" in capfd.readouterr().err
+    assert capfd.readouterr().err.count("can not use message filters") == 1
     allowing = Cache(allow_headerless=True)
     allowing.add(String(data="now"))
     assert allowing.getLast().data == "now"
