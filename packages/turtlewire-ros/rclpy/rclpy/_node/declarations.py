@@ -5,6 +5,7 @@ Interprets ``(name, value or type, descriptor)`` and applies values of the comma
 
 from __future__ import annotations
 
+from copy import copy
 from typing import TYPE_CHECKING, Any
 
 from rclpy.parameter import Parameter
@@ -47,6 +48,8 @@ def read_declaration(
             f"Third element {descriptor} at index {index} in parameters list is not a "
             "ParameterDescriptor."
         )
+    # A program may declare several parameters with one descriptor.
+    descriptor = copy(descriptor)
     if len(declaration) == 1:
         _name_alone(name)
         descriptor.dynamic_typing = True

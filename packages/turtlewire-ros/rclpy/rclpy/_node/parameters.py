@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterable, Sequence
+from copy import copy
 from typing import TYPE_CHECKING, Any
 
 from rclpy._node import descriptors as rules
@@ -313,6 +314,7 @@ class NodeParameters(DeclaredParameters):
             return self.get_parameter(name).get_parameter_value()
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
+        descriptor = copy(descriptor)  # the program may use it for several parameters
         if not descriptor.dynamic_typing and not descriptor.type:
             descriptor.type = self._parameters[name].type_.value
         # As in a declaration: a descriptor that is read-only does not reject the present value.

@@ -545,6 +545,18 @@ def test_descriptions(parameters):
     ]
 
 
+def test_parameters_declared_with_one_descriptor_have_their_own_types(parameters):
+    shared = ParameterDescriptor(description="limit")
+    parameters.declare_parameters("", [("a", 1, shared), ("b", 2.0, shared)])
+    described = parameters.describe_parameters(["a", "b"])
+    assert [(each.name, each.type) for each in described] == [("a", 2), ("b", 3)]
+    assert reason(parameters, "a", 5) == reason(parameters, "b", 0.5) == ""
+    other = ParameterDescriptor(description="other")
+    parameters.set_descriptor("a", other)
+    parameters.set_descriptor("b", other)
+    assert reason(parameters, "a", 6) == reason(parameters, "b", 1.5) == ""
+
+
 def test_another_descriptor(parameters):
     parameters.declare_parameter("a", 20)
     narrow = ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10)])
