@@ -306,12 +306,11 @@ class Executor:
         handler: Task[Any] = Task(self._rclpy_scheduler.execute, (source, work))
         if isinstance(source, Task):
             return handler, None, None
-        index = source._rank[0]
-        return (
-            handler,
-            source,
-            next((n for n, place in self._nodes.items() if place == index), None),
-        )
+        membership = source._membership  # None if another thread has just destroyed the entity
+        with self._rclpy_scheduler.lock:
+            nodes = {index: node for node, index in self._nodes.items()}
+        node = None if membership is None else nodes.get(membership.node_index)
+        return handler, source._waitable or source, node
 
     def wake(self) -> None:
         """End the current wait, or the next one at once."""

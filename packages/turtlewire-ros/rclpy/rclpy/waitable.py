@@ -181,7 +181,7 @@ class Waitable(Entity):
                 part.callback_group = self.callback_group
                 self._parts.append(part)
         for part in self._parts:
-            part._is_part = True
+            part._waitable = self
             host.adopt(part, self._membership)
 
     def _detach(self, host: EntityHost) -> None:

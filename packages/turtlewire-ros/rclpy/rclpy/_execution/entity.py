@@ -116,8 +116,8 @@ class Entity:
         _rank: Its place in a cycle of the executor: number of the node, kind, number of the entity.
         _destroyed: Whether :meth:`destroy` was called.
         _on_destroy: Called with the entity after it was destroyed.
-        _owner: The waitable that it is part of, which decides about its work.
-        _is_part: Whether it is part of a waitable.
+        _owner: The waitable of a program that decides about its work.
+        _waitable: The waitable that it is part of.
     """
 
     #: Place in the order of one node's entities within a cycle of the executor (waitables of all
@@ -134,7 +134,7 @@ class Entity:
         self._destroyed = False
         self._on_destroy: Callable[[Any], None] | None = None
         self._owner: _Owner | None = None
-        self._is_part = False
+        self._waitable: Entity | None = None
         if callback_group is not None:
             self._enter(callback_group)
 
@@ -148,7 +148,7 @@ class Entity:
         if self._serving_host() is not None or self._destroyed:
             return False
         # The parts of a waitable, which belong to no node, come in the order that it gives them.
-        if self._is_part or membership.node_index < 0:
+        if self._waitable is not None or membership.node_index < 0:
             self._rank = (-1, 0, number)
         else:
             self._rank = (membership.node_index, self._ORDER, number)

@@ -11,7 +11,9 @@ from functools import partial
 
 import pytest
 
+from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
+from rclpy.action import ActionClient, ActionServer
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
@@ -855,6 +857,18 @@ def test_an_executor_of_ones_own_decides_where_callbacks_run(context, node):
             executor.spin_once(timeout_sec=0)
     assert executor.can_execute(guards[0])
     other.destroy_node()
+
+
+def test_an_executor_of_ones_own_is_told_the_node_of_an_action(context, node):
+    server = ActionServer(node, Fibonacci, "count", lambda _: Fibonacci.Result())
+    caller = Node("caller", context=context)
+    ActionClient(caller, Fibonacci, "count").send_goal_async(Fibonacci.Goal())
+    with SingleThreadedExecutor(context=context) as executor:
+        executor.add_node(node)
+        handler, entity, owner = executor.wait_for_ready_callbacks(timeout_sec=60)
+        handler()
+    assert (entity, owner) == (server, node)
+    caller.destroy_node()
 
 
 def test_a_group_that_becomes_free_while_an_entity_is_paused_is_noticed(node, executor):
