@@ -12,7 +12,6 @@ from turtlewire.msg import deserialize, serialize
 from turtlewire.wire.services import require_callable
 
 from ._execution.blocking import BlockingCall, limit_ns, wait_for_response
-from ._execution.futures import call_when_done, run_callbacks_on
 from ._node.checks import check_valid
 from ._rclpy_pybind11 import RCLError
 from ._typing import RequestT, ResponseT, SrvT_co, T
@@ -106,7 +105,7 @@ class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
                 EventType.REQUEST_SENT, self._wire.client_id, sequence_number, request=request
             )
         # A future that the program cancels needs no response any more.
-        call_when_done(future, lambda: self._pending.pop(sequence_number, None))
+        future._add_waiter(lambda: self._pending.pop(sequence_number, None))
         return future
 
     def _send(self, cdr: bytes) -> int:
@@ -176,7 +175,7 @@ class BaseClient(IntrospectedEndpoint, Generic[SrvT_co]):
                     sequence_number,
                     response=response,
                 )
-            run_callbacks_on(self._serving_host(), future)
+            future._set_executor(self._serving_host())
             return future.set_result, (response,)
         return None
 

@@ -17,7 +17,6 @@ from ._execution.exceptions import (
     ShutdownException,
     TimeoutException,
 )
-from ._execution.futures import calling_when_done
 from ._execution.pool import PoolScheduler
 from ._execution.scheduler import Scheduler
 from .impl.hints import described, with_hint
@@ -265,7 +264,7 @@ class Executor:
 
     def _waking_when_done(self, future: Future[Any]) -> AbstractContextManager[None]:
         if isinstance(future, Future):
-            return calling_when_done(future, self.wake)
+            return future._waking(self.wake)
         if hasattr(future, "add_done_callback"):  # of concurrent.futures, which keeps it
             future.add_done_callback(lambda _: self.wake())
             return nullcontext()

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from ._node.base import BaseNode, component_arguments
-from ._node.qos_overrides import QosOverrides
+from ._node.endpoints import QosOverrides
 from ._rclpy_pybind11 import NodeNameNonExistentError
 from .client import Client, SrvType, SrvTypeRequest, SrvTypeResponse
 from .clock import Clock, ClockType

@@ -1,6 +1,6 @@
 """Service introspection: clients and servers publish what they send and receive.
 
-The events go to ``<service>/_service_event``.
+The events go to ``<service>/_service_event``; those of an action go to three such topics.
 """
 
 from __future__ import annotations
@@ -121,6 +121,38 @@ class IntrospectedEndpoint(ClosingEntity):
         if self._events is not None:
             self._events.wire.close()
         self._wire.close()
+
+
+class IntrospectedAction:
+    """An action client or server.
+
+    Attributes:
+        _services: Its ends of the services of goals, cancellations and results.
+    """
+
+    _services: tuple[IntrospectedEndpoint, ...]
+
+    def configure_introspection(
+        self,
+        clock: Clock,
+        service_event_qos_profile: QoSProfile,
+        introspection_state: ServiceIntrospectionState,
+    ) -> None:
+        """Publish the requests and responses that are sent and received.
+
+        The events of goals, cancellations and results go to ``_service_event`` below
+        ``<action>/_action/send_goal``, ``cancel_goal`` and ``get_result``.
+
+        Args:
+            clock: Gives the stamps.
+            service_event_qos_profile: Quality of service of the events.
+            introspection_state: Publish nothing, only the metadata, or the contents as well.
+
+        Raises:
+            InvalidHandle: The client or server was destroyed.
+        """
+        for service in self._services:
+            service.configure_introspection(clock, service_event_qos_profile, introspection_state)
 
 
 class _EventPublisher(NamedTuple):

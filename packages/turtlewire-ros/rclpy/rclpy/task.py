@@ -11,12 +11,10 @@ import contextlib
 import sys
 import threading
 import weakref
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Iterator
 from enum import Enum
 from types import CoroutineType
 from typing import Any, Generic, Protocol
-
-from turtlewire.wake_up import WakeUp
 
 from ._execution.asyncio_loop import running_loop
 from ._typing import T
@@ -89,11 +87,8 @@ class Future(Generic[T]):
             with contextlib.suppress(RuntimeError):  # the loop was closed: nobody waits any more
                 loop.call_soon_threadsafe(finish)
 
-        self._add_waiter(wake)
-        try:
+        with self._waking(wake):  # until it is done, or the awaiting task is cancelled
             yield from finished.__await__()
-        finally:  # also when the awaiting task is cancelled
-            self._remove_waiter(wake)
 
     def _pending(self) -> bool:
         return not self._done and not self._cancelled
@@ -208,19 +203,20 @@ class Future(Generic[T]):
         with self._lock, contextlib.suppress(ValueError):
             self._waiters.remove(waiter)
 
-    def _wait(self, timeout_sec: float | None) -> bool:
-        """Block this thread until it is done; False when the time was over before."""
-        done = WakeUp()
-        self._add_waiter(done.set)
+    @contextlib.contextmanager
+    def _waking(self, waiter: Callable[[], object]) -> Iterator[None]:
+        """Within the block, have :meth:`_add_waiter` call ``waiter()``."""
+        self._add_waiter(waiter)
         try:
-            return done.wait(timeout_sec)
+            yield
         finally:
-            self._remove_waiter(done.set)
+            self._remove_waiter(waiter)
 
     def _get_executor(self) -> _TaskRunner | None:
         return None if self._executor is None else self._executor()
 
     def _set_executor(self, executor: _TaskRunner | None) -> None:
+        """Run the done-callbacks on an executor; None: in the finishing thread."""
         self._executor = None if executor is None else weakref.ref(executor)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ._execution.entity import Entity, EntityHost, Work
-from ._execution.futures import run_callbacks_on
 from .subscription import Subscription
 from .timer import Timer
 
@@ -165,11 +164,11 @@ class Waitable(Entity):
 
     def add_future(self, future: Future) -> None:
         """Run the done-callbacks of ``future`` on the executor that serves this waitable."""
-        run_callbacks_on(self._serving_host(), future)
+        future._set_executor(self._serving_host())
 
     def remove_future(self, future: Future) -> None:
         """Undo :meth:`add_future`: the done-callbacks run in the thread that finishes it."""
-        run_callbacks_on(None, future)
+        future._set_executor(None)
 
     def _attach(self, host: EntityHost) -> None:
         # Once: a waitable that moves to another executor keeps its parts.

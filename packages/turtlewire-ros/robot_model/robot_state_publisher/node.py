@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import SetParametersResult
-from rclpy._node.qos_overrides import QosOverrides
+from rclpy._node.endpoints import QosOverrides
 from rclpy.clock import JumpThreshold
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration

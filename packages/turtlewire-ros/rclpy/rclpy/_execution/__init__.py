@@ -6,10 +6,10 @@ module                    contents
 `scheduler`, `pool`       finds and runs ready callbacks; a variant with a thread pool
 `wait`, `timer_queue`     the one wait for wire and timers; timers by their due times
 `entity`                  `Entity`; `EntityHost`, an entity's view of its executor
+`served_entities`         the entities that an executor serves
 `membership`              the entities of a node in an executor
 `running_callbacks`       the callbacks that each thread is running
-`blocking`, `self_waits`  waiting for a response; warnings of deadlocks
-`futures`                 callbacks of futures: called at once, or by an executor
+`blocking`                waiting for a response; warnings of deadlocks
 `background_events`       TF messages, stored by other threads, as events
 `exceptions`              reasons for which a wait ends without work
 `timer_info`              `TimerInfo`, and the parameter of a callback that gets it

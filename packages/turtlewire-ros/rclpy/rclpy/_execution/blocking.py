@@ -1,11 +1,13 @@
-"""Blocks until a response arrives, and avoids or reports the deadlocks that this can cause."""
+"""Blocks until a response arrives, and avoids or reports deadlocks: of calls, and of ``await``."""
 
 from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from rclpy.service import Service
 from turtlewire.wake_up import WakeUp
 
 from .exceptions import (
@@ -14,14 +16,13 @@ from .exceptions import (
     ShutdownException,
     TimeoutException,
 )
-from .futures import calling_when_done
 
 if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.impl.rcutils_logger import RcutilsLogger
     from rclpy.task import Future
 
-    from .entity import EntityHost
+    from .entity import Entity, EntityHost
 
 #: Time after which a wait that probably never ends is logged.
 _PATIENCE_S = 1.0
@@ -81,7 +82,7 @@ def _serve_responses(
     """
     patience: float | None = time.monotonic() + _PATIENCE_S
     # Another thread may finish the future, for example by cancelling it.
-    with calling_when_done(future, host.wake), host.serving_responses(future):
+    with future._waking(host.wake), host.serving_responses(future):
         while not future.done() and (deadline is None or time.monotonic() < deadline):
             if patience is not None and time.monotonic() >= patience:
                 patience = None
@@ -122,7 +123,7 @@ def _wait_for_other_thread(future: Future[Any], call: BlockingCall, deadline: fl
 
     try:
         patience: float | None = _PATIENCE_S
-        with calling_when_done(future, done.set):
+        with future._waking(done.set):
             while not is_over():
                 if not _wait(done, deadline, patience) and patience is not None:
                     patience = None
@@ -182,3 +183,53 @@ def _raise_if_ended(call: BlockingCall) -> None:
         raise ExternalShutdownException
     if _is_shutdown(call.host):
         raise ShutdownException
+
+
+class SelfWaits:
+    """Services held up by an async callback that may be waiting for them; warns after a second.
+
+    Attributes:
+        due: The services to warn about, and when.
+    """
+
+    def __init__(self) -> None:
+        self.due: dict[Entity, tuple[Service, int]] = {}
+
+    def held_up(
+        self, entity: Entity, suspended: Collection[Entity], served: Iterable[Entity]
+    ) -> None:
+        """Note an entity that has work which its group does not let it do.
+
+        It counts when it is a service, a suspended callback holds its group, and a client waits for
+        its response.
+
+        Args:
+            entity: What is held up.
+            suspended: Entities whose async callbacks await something.
+            served: All entities of the executor.
+        """
+        if isinstance(entity, Service) and any(
+            other.callback_group is entity.callback_group for other in suspended
+        ):
+            service = entity._wire.service  # `service_name` raises when another thread destroys it
+            if any(other._awaits(service) for other in list(served)):
+                self.due[entity] = (entity, time.monotonic_ns() + int(_PATIENCE_S * 1e9))
+
+    def goes_on(self, entity: Entity) -> None:
+        """Stop watching an entity that may run again or was released."""
+        self.due.pop(entity, None)
+
+    def bounded(self, timeout_ns: int | None) -> int | None:
+        """Shorten a wait so that :meth:`warn` can be called in time."""
+        moments = [due for _, due in list(self.due.values())]
+        if not moments:
+            return timeout_ns
+        left = max(0, min(moments) - time.monotonic_ns())
+        return left if timeout_ns is None else min(left, timeout_ns)
+
+    def warn(self) -> None:
+        """Say what has been held up for too long, once."""
+        for service, due in list(self.due.values()):
+            if time.monotonic_ns() >= due:
+                self.due.pop(service, None)
+                service._warn_of_self_wait()

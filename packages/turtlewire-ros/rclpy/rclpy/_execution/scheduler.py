@@ -23,7 +23,6 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy.logging import get_logger
 from rclpy.task import Future, Task
-from turtlewire.errors import WireError
 
 from .entity import HANDLED
 from .exceptions import (
@@ -32,145 +31,48 @@ from .exceptions import (
     ShutdownException,
     TimeoutException,
 )
-from .membership import Membership
 from .running_callbacks import RunningCallbacks
-from .self_waits import SelfWaits
+from .served_entities import ServedEntities
 from .wait import ExecutorWait
 
 if TYPE_CHECKING:
     from rclpy.context import Context
     from turtlewire.wake_up import WakeUp
 
-    from .entity import Entity, EntityHost, Work
+    from .entity import Entity, Work
 
 #: Idle time after which a spin within a callback logs a warning.
 _PATIENCE_NS = 1_000_000_000
 
 
-class Scheduler:
+class Scheduler(ServedEntities):
     """Finds and runs what is ready. All methods are thread-safe; one thread spins at a time.
 
     Attributes:
-        context: Its context.
-        wait: The wait for everything that can become ready.
-        is_shutdown: Whether :meth:`shutdown` was called.
         serves_endlessly: Whether ``spin`` runs: then messages without a callback do not count as
             events.
-        lock: Guards the state of it all.
         blocked: Set when the executor is shut down; for threads that wait for a response.
     """
 
     def __init__(self, context: Context) -> None:
-        self.context = context
         wait_set = context.wire.create_wait_set()
-        self.wait: ExecutorWait[Entity] = ExecutorWait(wait_set)
+        super().__init__(context, ExecutorWait(wait_set))
         # Of an executor that is dropped without a shutdown. On another thread, because the garbage
         # collector runs anywhere, with any lock held.
         self._end = weakref.finalize(self, context.wire.call_soon, wait_set.close)
         self._end.atexit = False  # the context closes all wait sets
-        self.is_shutdown = False
         self.serves_endlessly = False
         self.blocked: set[WakeUp] = set()
-        self._entities_made = 0
-        self._without_node = Membership(self, -1)
-        self._members = {self._without_node: None}
-        self.lock = threading.RLock()
         self._tasks: list[Task[Any]] = []
         self._ready: deque[Entity | Task[Any]] = deque()
-        self._paused: set[Entity] = set()
         # An async callback keeps its group claimed until its coroutine ends.
         self._holders: dict[Task[Any], Entity] = {}
         self._running = RunningCallbacks()
-        self._self_waits = SelfWaits()
         self._spinning_thread: int | None = None
         self._collecting = False
         self._response_awaited: Future[Any] | None = None
         context.on_shutdown(self.wake)
         context.note_scheduler(self)
-
-    # Entities
-
-    def adopt(self, entity: Entity, membership: Membership | None = None) -> None:
-        """Serve an entity of a node; entities without a node come first.
-
-        While the node is parked, that begins when it is taken back.
-        """
-        with self.lock:
-            if membership is None:
-                membership = self._without_node
-            if membership.is_over:
-                return
-            self._entities_made += 1
-            if not entity._join(membership, self._entities_made):
-                return
-            self._before_change(membership)
-            membership.entities[entity] = None
-            if membership.is_active:
-                self._members[membership] = None
-                self._listen_to(entity, entity._attach)
-
-    def release(self, entity: Entity) -> None:
-        """Serve an entity no longer."""
-        with self.lock:
-            membership = entity._membership
-            if membership is not None:
-                self._before_change(membership)
-                membership.entities.pop(entity, None)
-            self._forget_pause(entity)
-            entity._leave(self)
-
-    def _before_change(self, membership: Membership) -> None:
-        """Let its endpoints be attached one by one when the node is taken back."""
-        if not membership.is_active:
-            self.wait.detach_parked()
-        membership.by_wire = None
-
-    def _forget_pause(self, entity: Entity) -> None:
-        if entity in self._paused:
-            self._paused.discard(entity)
-            self._self_waits.goes_on(entity)
-
-    def park(self, membership: Membership) -> None:
-        """Serve the entities of a node no longer; its endpoints stay attached for the moment."""
-        with self.lock:
-            self._members.pop(membership, None)
-            if self._paused:  # perhaps some of its entities, which are not attached
-                for entity in list(membership.entities):
-                    self._forget_pause(entity)
-                    entity._detach(self)
-                membership.by_wire = None
-                membership.is_active = False
-                return
-            membership.is_active = False
-            self.wait.park(membership)
-            for entity in membership.others:
-                entity._pause(self)
-
-    def take_back(self, membership: Membership) -> None:
-        """Serve the entities of a parked node again."""
-        with self.lock:
-            self._members[membership] = None
-            membership.is_active = True
-            if self.wait.take_back(membership):
-                for entity in membership.others:
-                    self._listen_to(entity, entity._resume)
-            else:
-                for entity in list(membership.entities):
-                    self._listen_to(entity, entity._attach)
-
-    def end_membership(self, membership: Membership) -> None:
-        """Detach the entities of a parked node, which will not be taken back."""
-        with self.lock:
-            membership.is_over = True
-            self.wait.detach_parked()
-
-    def _listen_to(self, entity: Entity, attach: Callable[[EntityHost], None]) -> None:
-        """Attach an entity; another thread may destroy it, or shut down, at this moment."""
-        try:
-            attach(self)
-        except WireError:
-            if self.context.ok() and not self.is_shutdown and not entity._destroyed:
-                raise
 
     # Tasks
 
@@ -355,8 +257,7 @@ class Scheduler:
             self._paused.add(entity)
             entity.callback_group._rclpy_note_wait(self)
             entity._pause(self)
-            served = [other for member in self._members for other in member.entities]
-            self._self_waits.held_up(entity, list(self._holders.values()), served)
+            self._self_waits.held_up(entity, list(self._holders.values()), self.served())
         if self.may_run(entity):  # the group became free before the entity was in the list
             self._resume(entity)
 

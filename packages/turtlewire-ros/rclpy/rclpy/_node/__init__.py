@@ -4,18 +4,15 @@
 module                        contents
 ============================  ==================================================================
 `base`                        `BaseNode`: the base of ordinary and asynchronous nodes
-`state`                       names, wire, context, logger and command line of one node
+`state`                       names, wire, context, logger and command line of one node; the
+                              publisher of ``/rosout``
 `endpoints`                   creates, stores and closes the endpoints of a node
-`handle`                      the stand-in for a node's handle of the C library
-`qos_overrides`               policies of an endpoint that parameters override
-`checks`                      checks of callbacks and of the quality of service
-`names`                       full names of topics and services
+`checks`                      checks of callbacks, names and the quality of service
 `graph`                       other nodes, topics and services
 `declared`, `parameters`      parameters of a node: read and listed; set, with callbacks and
                               events
-`declarations`                what a declaration of a parameter means
-`descriptors`                 checks a value against its descriptor: ranges, steps, types
-`rosout`                      the publisher of ``/rosout``
+`declarations`                what a declaration of a parameter means; checks of a value: ranges,
+                              steps, types
 `views`                       views of a node for the time source and built-in services
 ============================  ==================================================================
 """

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._node.endpoints import OwnEndpoints
 from rclpy._node.graph import NodeGraph, actions_among
-from rclpy._node.handle import NodeHandle
 from rclpy._node.parameters import NodeParameters
 from rclpy._node.state import NodeState
+from rclpy._node.views import NodeHandle
 from rclpy.exceptions import (
     InvalidNamespaceException,
     InvalidNodeNameException,

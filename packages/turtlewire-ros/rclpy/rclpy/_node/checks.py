@@ -1,4 +1,4 @@
-"""Checks of what programs pass when they make endpoints."""
+"""Checks of what programs pass when they make endpoints, and the full names of these."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from rclpy._rclpy_pybind11 import RCLError
-from rclpy.impl.hints import with_hint
+from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
+from rclpy.impl.hints import described, with_hint
 from rclpy.qos import QoSProfile
 from turtlewire.errors import WireError
+from turtlewire.wire import names
 
 if TYPE_CHECKING:
+    from rclpy._node.state import NodeState
     from rclpy.context import Context
 
 _INVALID = "rcl node's context is invalid"
@@ -66,3 +69,49 @@ def validate_qos(qos_or_depth: QoSProfile | int) -> QoSProfile:
             raise ValueError("history depth must be greater than or equal to zero")
         return QoSProfile(depth=qos_or_depth)
     raise TypeError(f"Expected QoSProfile or int, but received {type(qos_or_depth)!r}")
+
+
+class NameResolver:
+    """Makes full names of what a program gives as names."""
+
+    def __init__(self, core: NodeState) -> None:
+        self._core = core
+
+    def resolve_topic(self, topic: str, *, only_expand: bool = False) -> str:
+        """Return the fully qualified name of a topic, remapped unless ``only_expand``.
+
+        Raises:
+            InvalidTopicNameException: The name breaks the rules.
+            ValueError: The name has an unknown substitution.
+        """
+        expanded = self._expand(topic, InvalidTopicNameException)
+        if only_expand:
+            return expanded
+        return self._core.arguments.remap_topic(expanded, self._core.name, self._core.namespace)
+
+    def resolve_service(self, service: str, *, only_expand: bool = False) -> str:
+        """Return the fully qualified name of a service, remapped unless ``only_expand``.
+
+        Raises:
+            InvalidServiceNameException: The name breaks the rules.
+            ValueError: The name has an unknown substitution.
+        """
+        expanded = self._expand(service, InvalidServiceNameException)
+        if only_expand:
+            return expanded
+        return self._core.arguments.remap_service(expanded, self._core.name, self._core.namespace)
+
+    def _expand(
+        self, name: str, error: type[InvalidTopicNameException | InvalidServiceNameException]
+    ) -> str:
+        if not isinstance(name, str):
+            raise TypeError(f"The name of a topic or service is a str, not {described(name)}")
+        fault = names.validate_topic_name(name)
+        if fault is not None:
+            raise error(name, fault.message, fault.invalid_index)
+        expanded = names.expand_topic_name(name, self._core.name, self._core.namespace)
+        # Substitutions can make a valid name invalid; the error then shows the expanded name.
+        fault = names.validate_full_topic_name(expanded)
+        if fault is not None:
+            raise error(expanded, fault.message, fault.invalid_index)
+        return expanded

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from rclpy._execution.entity import Entity
 from rclpy._execution.handle import EndpointImpl, closed_on_error
 from rclpy._execution.membership import Membership
-from rclpy._node.checks import check_callable, in_open_context, validate_qos
-from rclpy._node.names import NameResolver
+from rclpy._node.checks import NameResolver, check_callable, in_open_context, validate_qos
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.client import Client
 from rclpy.event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
@@ -33,13 +32,15 @@ from turtlewire.msg import type_name
 
 if TYPE_CHECKING:
     from rclpy._execution.entity import EntityHost
-    from rclpy._node.qos_overrides import QosOverrides
+    from rclpy._node.parameters import NodeParameters
     from rclpy._node.state import NodeState
     from rclpy.callback_groups import CallbackGroup
     from rclpy.clock import Clock
     from rclpy.qos import QoSProfile
+    from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.waitable import Waitable
     from turtlewire.wire import base
+    from turtlewire.wire.base import ServiceTypes, TypeId
 
 _Owned = TypeVar("_Owned")
 
@@ -48,6 +49,21 @@ def endpoints_of(node: Any) -> OwnEndpoints:
     """Return a node's endpoints (internal)."""
     endpoints: OwnEndpoints = node._rclpy_endpoints
     return endpoints
+
+
+class QosOverrides(NamedTuple):
+    """The QoS policies of an endpoint that parameters may override."""
+
+    options: QoSOverridingOptions | None
+    parameters: NodeParameters
+
+    def apply(self, kind: str, profile: QoSProfile, resolve_topic: Callable[[], str]) -> QoSProfile:
+        """Return the profile with the parameters' values; ``kind`` is publisher or subscription."""
+        if self.options is None:
+            return profile
+        from rclpy.qos_overriding_options import overridden_profile
+
+        return overridden_profile(kind, resolve_topic(), profile, self.options, self.parameters)
 
 
 class OwnEndpoints:
@@ -81,6 +97,29 @@ class OwnEndpoints:
                 if isinstance(owned, Entity)
             ]
 
+    def announce(
+        self, kind: str, interface: Any, name: str, profile: QoSProfile, **options: Any
+    ) -> EndpointImpl:
+        """Announce an endpoint; return what the constructor of its class needs.
+
+        Args:
+            kind: ``publisher``, ``subscription``, ``service`` or ``client``.
+            interface: The class of its messages, or the service class.
+            name: Name of the topic or service.
+            profile: Its quality of service.
+            **options: Of the middleware.
+        """
+        types: TypeId | ServiceTypes
+        if kind in {"publisher", "subscription"}:
+            check_is_valid_msg_type(interface)
+            name, types = self.names.resolve_topic(name), type_id(type_name(interface))
+        else:
+            check_is_valid_srv_type(interface)
+            name, types = self.names.resolve_service(name), service_types(type_name(interface))
+        with in_open_context(self._core.context, kind):
+            create = getattr(self._core.wire, f"create_{kind}")
+            return EndpointImpl(create(name, types, profile.to_wire(), **options), self._core)
+
     def create_publisher(
         self,
         msg_type: Any,
@@ -94,7 +133,7 @@ class OwnEndpoints:
         profile = validate_qos(qos_profile)
         if overrides is not None:
             profile = overrides.apply("publisher", profile, lambda: self.names.resolve_topic(topic))
-        with closed_on_error(self.publisher_impl(msg_type, topic, profile)) as impl:
+        with closed_on_error(self.announce("publisher", msg_type, topic, profile)) as impl:
             publisher = publisher_class(
                 impl,
                 msg_type,
@@ -110,17 +149,9 @@ class OwnEndpoints:
     def make_publisher(self, msg_type: Any, topic: str, qos_profile: QoSProfile | int) -> Publisher:
         """Return a publisher that the caller owns."""
         profile = validate_qos(qos_profile)
-        return Publisher(self.publisher_impl(msg_type, topic, profile), msg_type, topic, profile)
-
-    def publisher_impl(self, msg_type: Any, topic: str, profile: QoSProfile) -> EndpointImpl:
-        """Announce a publisher; return what its constructor needs."""
-        check_is_valid_msg_type(msg_type)
-        name = self.names.resolve_topic(topic)
-        with in_open_context(self._core.context, "publisher"):
-            wire = self._core.wire.create_publisher(
-                name, type_id(type_name(msg_type)), profile.to_wire()
-            )
-        return EndpointImpl(wire, self._core)
+        return Publisher(
+            self.announce("publisher", msg_type, topic, profile), msg_type, topic, profile
+        )
 
     def create_subscription(
         self,
@@ -161,7 +192,8 @@ class OwnEndpoints:
     ) -> Subscription:
         """Return a subscription that the caller owns."""
         profile = validate_qos(qos_profile)
-        with closed_on_error(self.subscription_impl(msg_type, topic, profile, sink)) as impl:
+        impl = self.announce("subscription", msg_type, topic, profile, sink=sink)
+        with closed_on_error(impl):
             return Subscription(
                 impl,
                 msg_type,
@@ -172,18 +204,6 @@ class OwnEndpoints:
                 callback_group=callback_group or self.default_callback_group,
                 event_callbacks=event_callbacks,
             )
-
-    def subscription_impl(
-        self, msg_type: Any, topic: str, profile: QoSProfile, sink: base.Sink | None = None
-    ) -> EndpointImpl:
-        """Announce a subscription; return what its constructor needs."""
-        check_is_valid_msg_type(msg_type)
-        name = self.names.resolve_topic(topic)
-        with in_open_context(self._core.context, "subscription"):
-            wire = self._core.wire.create_subscription(
-                name, type_id(type_name(msg_type)), profile.to_wire(), sink=sink
-            )
-        return EndpointImpl(wire, self._core)
 
     def create_client(
         self,
@@ -202,7 +222,7 @@ class OwnEndpoints:
         callback_group: CallbackGroup | None,
     ) -> Client:
         """Return a client that the caller owns."""
-        with closed_on_error(self.client_impl(srv_type, srv_name, qos_profile)) as impl:
+        with closed_on_error(self.announce("client", srv_type, srv_name, qos_profile)) as impl:
             return Client(
                 self._core.context,
                 impl,
@@ -211,16 +231,6 @@ class OwnEndpoints:
                 qos_profile,
                 callback_group or self.default_callback_group,
             )
-
-    def client_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> EndpointImpl:
-        """Announce a client; return what its constructor needs."""
-        check_is_valid_srv_type(srv_type)
-        name = self.names.resolve_service(srv_name)
-        with in_open_context(self._core.context, "client"):
-            wire = self._core.wire.create_client(
-                name, service_types(type_name(srv_type)), profile.to_wire()
-            )
-        return EndpointImpl(wire, self._core)
 
     def create_service(
         self,
@@ -244,9 +254,8 @@ class OwnEndpoints:
         service_class: type[Service] = Service,
     ) -> Service:
         """Return a service that the caller owns."""
-        check_is_valid_srv_type(srv_type)
         check_callable(callback)
-        with closed_on_error(self.service_impl(srv_type, srv_name, qos_profile)) as impl:
+        with closed_on_error(self.announce("service", srv_type, srv_name, qos_profile)) as impl:
             return service_class(
                 impl,
                 srv_type,
@@ -255,16 +264,6 @@ class OwnEndpoints:
                 qos_profile=qos_profile,
                 callback_group=callback_group or self.default_callback_group,
             )
-
-    def service_impl(self, srv_type: Any, srv_name: str, profile: QoSProfile) -> EndpointImpl:
-        """Announce a service; return what its constructor needs."""
-        check_is_valid_srv_type(srv_type)
-        name = self.names.resolve_service(srv_name)
-        with in_open_context(self._core.context, "service"):
-            wire = self._core.wire.create_service(
-                name, service_types(type_name(srv_type)), profile.to_wire()
-            )
-        return EndpointImpl(wire, self._core)
 
     def create_timer(
         self,

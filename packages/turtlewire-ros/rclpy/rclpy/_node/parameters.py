@@ -10,8 +10,15 @@ from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from typing import TYPE_CHECKING, Any
 
-from rclpy._node import descriptors as rules
-from rclpy._node.declarations import default, new_descriptor, override, read_declaration, yaml_hint
+from rclpy._node.declarations import (
+    WRONG_TYPE,
+    default,
+    new_descriptor,
+    override,
+    read_declaration,
+    refusal,
+    yaml_hint,
+)
 from rclpy._node.declared import DeclaredParameters
 from rclpy.exceptions import (
     InvalidParameterTypeException,
@@ -151,7 +158,7 @@ class NodeParameters(DeclaredParameters):
             # One at a time, as in ROS 2: the parameters before a rejected one stay declared.
             reason = self._set_atomically([parameter], {parameter.name: descriptor})
             # ROS 2 also recognizes this case by its text.
-            if reason.startswith(rules.WRONG_TYPE):
+            if reason.startswith(WRONG_TYPE):
                 expected = Parameter.Type(descriptor.type)
                 error = InvalidParameterTypeException(parameter, expected.name)
                 error.is_of_command_line = (
@@ -244,7 +251,7 @@ class NodeParameters(DeclaredParameters):
             parameter.name: self._descriptor(parameter.name) for parameter in parameter_list
         }
         for parameter in parameter_list:
-            reason = rules.refusal(
+            reason = refusal(
                 parameter, descriptors[parameter.name], declaring=declarations is not None
             )
             if reason:
@@ -318,7 +325,7 @@ class NodeParameters(DeclaredParameters):
         if not descriptor.dynamic_typing and not descriptor.type:
             descriptor.type = self._parameters[name].type_.value
         # As in a declaration: a descriptor that is read-only does not reject the present value.
-        if rules.refusal(self._parameters[name], descriptor, declaring=True):
+        if refusal(self._parameters[name], descriptor, declaring=True):
             alternative = self._parameters[name]
             if alternative_value is not None:
                 from rcl_interfaces.msg import Parameter as ParameterMsg

@@ -1,23 +1,29 @@
-"""The state of a node that its endpoints, parameters and services share."""
+"""The state of a node that its endpoints, parameters and services share, and its ``/rosout``."""
 
 from __future__ import annotations
 
 import weakref
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from rclpy._node.rosout import RosoutPublisher
 from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy.impl import log_output
 from rclpy.logging import get_logger
+from rclpy.type_support import type_id
+from turtlewire import msg
+from turtlewire.errors import WireError
 from turtlewire.wire import names
 
 if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.impl.arguments import Arguments
+    from rclpy.impl.log_output import LogRecord
     from rclpy.impl.rcutils_logger import RcutilsLogger
     from turtlewire.wire import base
     from turtlewire.wire.qos import QoS
+
+_LOG_TYPE = "rcl_interfaces/msg/Log"
 
 
 class NodeState:
@@ -96,3 +102,45 @@ def _leave(
 def _leave_later(context: base.Context, leave: partial[None]) -> None:
     """Leave on another thread: the garbage collector runs anywhere, with any lock held."""
     context.call_soon(leave)
+
+
+class RosoutPublisher:
+    """Publishes what the logger ``logger_name`` and its children log. Thread-safe.
+
+    The messages are ``rcl_interfaces/msg/Log``.
+    """
+
+    def __init__(self, wire_node: base.Node, logger_name: str, qos: QoS) -> None:
+        self._wire = wire_node.create_publisher("/rosout", type_id(_LOG_TYPE), qos)
+        self._logger_name = logger_name
+        self._message_types: tuple[Any, Any] | None = None
+        log_output.add_rosout_sink(logger_name, self._publish)
+
+    def _publish(self, record: LogRecord) -> None:
+        # At the first record: a program that never logs need not read the definitions.
+        if self._message_types is None:
+            self._message_types = (
+                msg.get_message(_LOG_TYPE),
+                msg.get_message("builtin_interfaces/msg/Time"),
+            )
+        log_type, time_type = self._message_types
+        seconds, nanoseconds = divmod(record.stamp_ns, 1_000_000_000)
+        log = log_type(
+            stamp=time_type(sec=seconds, nanosec=nanoseconds),
+            level=int(record.severity),
+            name=record.name,
+            msg=record.message,
+            file=record.file_name,
+            function=record.function_name,
+            line=record.line_number,
+        )
+        try:
+            self._wire.publish(msg.serialize(log))
+        except WireError:
+            # The context is gone; the console still has the line.
+            log_output.remove_rosout_sink(self._logger_name)
+
+    def close(self) -> None:
+        """Publish no further records. Idempotent."""
+        log_output.remove_rosout_sink(self._logger_name)
+        self._wire.close()

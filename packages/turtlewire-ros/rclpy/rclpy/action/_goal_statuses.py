@@ -1,4 +1,4 @@
-"""The serialized states of an action's goals: bytes of ``action_msgs/msg/GoalStatusArray``.
+"""Ids of goals, and their serialized states: bytes of ``action_msgs/msg/GoalStatusArray``.
 
 A server publishes the states of all of its goals whenever one of them changes, and keeps a finished
 goal until its result expires, a quarter of an hour by default. Each goal is a record of fixed size,
@@ -7,13 +7,13 @@ so neither side has to make message objects of all of them for the one that has 
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Iterable
 from struct import Struct
 from typing import Any
 
 from turtlewire.msg import deserialize, get_message
-
-from ._goal_ids import goal_key
+from turtlewire.msg.values import array_content
 
 _HEADER = Struct("<4sI")
 _LITTLE_ENDIAN = b"\x00\x01\x00\x00"
@@ -25,6 +25,20 @@ _FIRST_PADDING = slice(16, 19)
 _FIRST_STAMP = _HEADER.size + _FIRST_PADDING.start
 #: From this many goals on, a lookup by id is faster than reading all records.
 _FEW = 16
+
+
+def goal_key(goal_id: Any) -> bytes:
+    """Return the 16 bytes of a ``unique_identifier_msgs/msg/UUID``, without NumPy."""
+    return array_content(goal_id, "uuid")
+
+
+def random_goal_id() -> Any:
+    """Return a random UUID, version 4."""
+    value = bytearray(os.urandom(16))
+    # The bits of version and variant, as in RFC 4122.
+    value[6] = value[6] & 0x0F | 0x40
+    value[8] = value[8] & 0x3F | 0x80
+    return get_message("unique_identifier_msgs/msg/UUID")(uuid=bytes(value))
 
 
 class GoalStatuses:

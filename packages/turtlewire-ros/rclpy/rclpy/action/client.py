@@ -10,23 +10,21 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Generic
 
 from rclpy._execution.blocking import limit_ns
-from rclpy._execution.futures import call_when_done
 from rclpy._node.checks import check_valid
 from rclpy._node.endpoints import endpoints_of
 from rclpy._typing import ActionT_co
 from rclpy.impl.hints import described, with_hint
 from rclpy.impl.reexports import reexports
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
+from rclpy.service_introspection import IntrospectedAction
 from rclpy.task import Future
 from rclpy.type_support import check_for_type_support
 from rclpy.waitable import Waitable
 from turtlewire.distro import KILTED, since
 from turtlewire.errors import CdrError
 
-from ._goal_ids import goal_key, random_goal_id
-from ._goal_statuses import read_statuses
-from ._introspection import IntrospectedAction
-from .goal_state import ACTIVE_STATES
+from ._goal_statuses import goal_key, random_goal_id, read_statuses
+from ._goals import ACTIVE_STATES
 
 if TYPE_CHECKING:
     from rclpy._typing import FeedbackT, GoalT, ResultT
@@ -286,7 +284,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
             self._feedback_callbacks[goal_id] = feedback_callback
         future = Future()
         response = self._goal_client.call_async(request)
-        call_when_done(response, lambda: self._on_goal_response(request.goal_id, response, future))
+        response._add_waiter(lambda: self._on_goal_response(request.goal_id, response, future))
         return future
 
     def _wrong_goal(self, goal: Any) -> TypeError:
@@ -360,7 +358,7 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
             raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
         request = self._action_type.Impl.GetResultService.Request(goal_id=goal_handle.goal_id)
         response = self._result_client.call_async(request)
-        call_when_done(response, lambda: self._on_result(goal_handle, response))
+        response._add_waiter(lambda: self._on_result(goal_handle, response))
         return response
 
     def _on_result(self, goal_handle: ClientGoalHandle, response: Future) -> None:

@@ -15,16 +15,15 @@ from rclpy.impl.hints import described, with_hint
 from rclpy.impl.reexports import reexports
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.service import Service
+from rclpy.service_introspection import IntrospectedAction
 from rclpy.timer import Timer
 from rclpy.type_support import check_for_type_support
 from rclpy.waitable import Waitable
 from turtlewire.distro import KILTED, LYRICAL, since
 from turtlewire.msg import get_message
 
-from ._goal_ids import goal_key
-from ._goals import Goal, Goals
-from ._introspection import IntrospectedAction
-from .goal_state import GoalEvent
+from ._goal_statuses import goal_key
+from ._goals import Goal, GoalEvent, Goals
 from .server_goal_handle import ServerGoalHandle
 
 if TYPE_CHECKING:

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.distro import LYRICAL, since
 
-from ._goals import Goal
-from .goal_state import GoalEvent
+from ._goals import Goal, GoalEvent
 
 if TYPE_CHECKING:
     from .server import ActionServer

@@ -233,7 +233,7 @@ class AsyncNode(BaseNode):
         """
         self.__check_alive("publisher")
         profile = validate_qos(qos_profile)
-        impl = self._rclpy_endpoints.publisher_impl(msg_type, topic, profile)
+        impl = self._rclpy_endpoints.announce("publisher", msg_type, topic, profile)
         publisher = AsyncPublisher(impl, msg_type, topic, profile, None)
         self._rclpy_endpoints.keep(publisher)
         return publisher
@@ -293,7 +293,7 @@ class AsyncNode(BaseNode):
         """
         self.__check_alive("subscription")
         profile = validate_qos(qos_profile)
-        announced = self._rclpy_endpoints.subscription_impl(msg_type, topic, profile)
+        announced = self._rclpy_endpoints.announce("subscription", msg_type, topic, profile)
         with closed_on_error(announced) as impl:
             subscription = AsyncSubscription(
                 impl, msg_type, topic, callback, profile, None, raw, concurrent, self.__group
@@ -324,7 +324,7 @@ class AsyncNode(BaseNode):
         """
         self.__check_alive("service")
         check_callable(callback)
-        impl = self._rclpy_endpoints.service_impl(srv_type, srv_name, qos_profile)
+        impl = self._rclpy_endpoints.announce("service", srv_type, srv_name, qos_profile)
         return self.__own(
             AsyncService(
                 impl, srv_type, srv_name, callback, qos_profile, None, concurrent, self.__group
@@ -350,7 +350,7 @@ class AsyncNode(BaseNode):
             InvalidServiceNameException: The name breaks the rules.
         """
         self.__check_alive("client")
-        impl = self._rclpy_endpoints.client_impl(srv_type, srv_name, qos_profile)
+        impl = self._rclpy_endpoints.announce("client", srv_type, srv_name, qos_profile)
         return self.__own(
             AsyncClient(self._context, impl, srv_type, srv_name, qos_profile, None, self.__group)
         )

@@ -258,7 +258,7 @@ class Arguments:
         self.rules.append(parse_remap_rule(text))
 
     def _add_parameter(self, text: str) -> None:
-        from rclpy.impl.rcl_param_rule import parse_parameter_rule
+        from rclpy.impl.rcl_yaml_param_parser import parse_parameter_rule
 
         node_name, parameter_name, value = parse_parameter_rule(text)
         self.parameter_maps[0].setdefault(node_name, {})[parameter_name] = value

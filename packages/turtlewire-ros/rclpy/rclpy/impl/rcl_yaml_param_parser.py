@@ -1,4 +1,4 @@
-"""Parameter values in YAML, by the strict typing rules of ROS 2.
+"""Parameter rules ``[node:]name:=value`` and values in YAML, by the strict typing rules of ROS 2.
 
 No aliases, no mixed sequences, no nulls.
 
@@ -17,7 +17,8 @@ import yaml
 
 from turtlewire.distro import LYRICAL, since
 
-from .rcl_lexer import RuleError
+from .rcl_lexer import Lexeme, Lexer, RuleError
+from .rcl_remap import parse_node_prefix
 
 ParameterValue = (
     bool | int | float | str | list[bytes] | list[bool] | list[int] | list[float] | list[str]
@@ -44,6 +45,42 @@ _LONGEST_INT = 100
 _DEEPEST = 100
 _TAGGED = {"bool": bool, "int": int, "float": float}
 _TYPE_NAMES = {bool: "bool", int: "integer", float: "double", str: "string"}
+
+
+def parse_parameter_rule(text: str) -> tuple[str, str, ParameterValue]:
+    """Read a rule.
+
+    Returns:
+        Pattern of node names (``/**`` when the rule names no node), name and value of the
+        parameter.
+
+    Raises:
+        RuleError: The rule is malformed.
+    """
+    lexer = Lexer(text)
+    node_name = parse_node_prefix(lexer) or "/**"
+    start = lexer.index
+    _name_token(lexer)
+    while lexer.peek() != Lexeme.SEPARATOR:
+        lexer.expect(Lexeme.DOT)
+        _name_token(lexer)
+    name = lexer.text[start : lexer.index]
+    lexer.expect(Lexeme.SEPARATOR)
+    return node_name, name, parse_value(lexer.rest)
+
+
+def _name_token(lexer: Lexer) -> None:
+    """Read the name between two dots.
+
+    Slashes are part of it (``qos_overrides./chatter.publisher.depth``).
+    """
+    found = lexer.peek()
+    if found in (Lexeme.WILD_ONE, Lexeme.WILD_MULTI):
+        raise RuleError(f"Wildcard '{lexer.accept()}' is not implemented")
+    if found not in (Lexeme.TOKEN, Lexeme.FORWARD_SLASH):
+        raise RuleError("Expecting token or wildcard")
+    while lexer.peek() in (Lexeme.TOKEN, Lexeme.FORWARD_SLASH):
+        lexer.accept()
 
 
 def parse_value(text: str) -> ParameterValue:

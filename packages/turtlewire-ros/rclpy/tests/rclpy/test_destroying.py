@@ -8,7 +8,7 @@ import pytest
 
 from example_interfaces.action import Fibonacci
 from example_interfaces.srv import AddTwoInts
-from rclpy._execution.self_waits import SelfWaits
+from rclpy._execution.blocking import SelfWaits
 from rclpy.action import ActionClient, ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.exceptions import InvalidHandle

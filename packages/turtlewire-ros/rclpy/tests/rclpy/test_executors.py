@@ -625,7 +625,7 @@ def test_a_spin_within_a_callback_that_cannot_succeed_is_warned_of(
 def test_an_async_callback_that_waits_for_itself_is_warned_of(
     node, any_executor, capfd, monkeypatch
 ):
-    monkeypatch.setattr("rclpy._execution.self_waits._PATIENCE_NS", 10_000_000)
+    monkeypatch.setattr("rclpy._execution.blocking._PATIENCE_S", 0.01)
     service = node.create_service(AddTwoInts, "held_up", lambda _, response: response)
     client = node.create_client(AddTwoInts, "held_up")
     warned = Future()
@@ -650,7 +650,7 @@ def test_an_async_callback_that_waits_for_itself_is_warned_of(
 
 
 def test_an_async_callback_that_waits_for_others_is_not(node, any_executor, capfd, monkeypatch):
-    monkeypatch.setattr("rclpy._execution.self_waits._PATIENCE_NS", 0)
+    monkeypatch.setattr("rclpy._execution.blocking._PATIENCE_S", 0.0)
     node.create_service(
         AddTwoInts,
         "free",

@@ -15,7 +15,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.impl import log_levels, log_output, rcutils_logger
 from rclpy.impl.arguments import Arguments
-from rclpy.impl.log_format import LineFormat
+from rclpy.impl.log_output import LineFormat
 from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.time import Time
