@@ -14,9 +14,7 @@ from typing import Any, Protocol
 class _Scheduler(Protocol):
     """The part of an executor that pauses entities of busy groups."""
 
-    def resume_paused(self) -> None:
-        """Resume the entities whose groups have become free."""
-        ...
+    def resume_paused(self) -> None: ...
 
 
 class CallbackGroup(ABC):

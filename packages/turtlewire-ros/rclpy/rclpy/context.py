@@ -36,25 +36,19 @@ _ALREADY_SHUT_DOWN = "failed to shutdown: rcl_shutdown already called on the giv
 class _Scheduler(Protocol):
     """The part of an executor that a context uses."""
 
-    def holds_up(self, service: str) -> bool:
-        """Return True if a request for a service is there that cannot be answered at the moment."""
-        ...
+    def holds_up(self, service: str) -> bool: ...
 
 
 class _Wait(Protocol):
     """A wait that the shutdown of a context ends."""
 
-    def set(self) -> None:
-        """End the wait."""
-        ...
+    def set(self) -> None: ...
 
 
 class _Node(Protocol):
     """The part of a node that a context uses."""
 
-    def destroy_node(self) -> None:
-        """Leave the graph."""
-        ...
+    def destroy_node(self) -> None: ...
 
 
 class Context:

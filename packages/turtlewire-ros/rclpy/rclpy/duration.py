@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import total_ordering
 from typing import TYPE_CHECKING, Any
 
 from ._rclpy_pybind11 import rcl_duration_t
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = ["S_TO_NS", "Duration", "Infinite"]
 
 
+@total_ordering
 class Duration:
     """A span of time as a signed 64-bit number of nanoseconds. Immutable.
 
@@ -105,25 +107,6 @@ class Duration:
     def __lt__(self, other: Any) -> bool:
         return (
             self._nanoseconds < other.nanoseconds if isinstance(other, Duration) else NotImplemented
-        )
-
-    def __le__(self, other: Any) -> bool:
-        return (
-            self._nanoseconds <= other.nanoseconds
-            if isinstance(other, Duration)
-            else NotImplemented
-        )
-
-    def __gt__(self, other: Any) -> bool:
-        return (
-            self._nanoseconds > other.nanoseconds if isinstance(other, Duration) else NotImplemented
-        )
-
-    def __ge__(self, other: Any) -> bool:
-        return (
-            self._nanoseconds >= other.nanoseconds
-            if isinstance(other, Duration)
-            else NotImplemented
         )
 
 

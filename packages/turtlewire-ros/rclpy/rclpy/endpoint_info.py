@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.wire import names
 
-from .impl.hints import require
+from .impl.hints import checked_property
 from .qos import HistoryPolicy, QoSProfile, qos_profile_unknown
 from .type_hash import TypeHash
 
@@ -35,24 +35,11 @@ class EndpointTypeEnum(IntEnum):
     SERVER = 4
 
 
-def _field(name: str, kind: type, doc: str) -> Any:
-    """Return a property that refuses values of other types, as ROS 2 does."""
-    slot = f"_{name}"
-
-    def write(self: Any, value: Any) -> None:
-        if kind is EndpointTypeEnum:
-            value = EndpointTypeEnum(value)
-        require(value, kind)
-        setattr(self, slot, value)
-
-    return property(lambda self: getattr(self, slot), write, doc=doc)
-
-
 class _EndpointInfo:
     """The node of an end of a topic or service; two with equal members are equal."""
 
-    node_name: str = _field("node_name", str, "Name of the node that owns it.")
-    node_namespace: str = _field("node_namespace", str, "Namespace of that node.")
+    node_name: str = checked_property("node_name", str, "Name of the node that owns it.")
+    node_namespace: str = checked_property("node_namespace", str, "Namespace of that node.")
 
     __hash__ = None  # type: ignore[assignment]  # mutable
 
@@ -63,15 +50,17 @@ class _EndpointInfo:
 class TopicEndpointInfo(_EndpointInfo):
     """One end of a topic."""
 
-    topic_type: str = _field("topic_type", str, "For example ``geometry_msgs/msg/Twist``.")
-    topic_type_hash: TypeHash = _field(
+    topic_type: str = checked_property(
+        "topic_type", str, "For example ``geometry_msgs/msg/Twist``."
+    )
+    topic_type_hash: TypeHash = checked_property(
         "topic_type_hash", TypeHash, "Hash of the type's definition."
     )
-    endpoint_type: EndpointTypeEnum = _field(
+    endpoint_type: EndpointTypeEnum = checked_property(
         "endpoint_type", EndpointTypeEnum, "Publisher or subscription."
     )
-    endpoint_gid: list[int] = _field("endpoint_gid", list, "16 numbers that identify it.")
-    qos_profile: QoSProfile = _field("qos_profile", QoSProfile, "As it was announced.")
+    endpoint_gid: list[int] = checked_property("endpoint_gid", list, "16 numbers that identify it.")
+    qos_profile: QoSProfile = checked_property("qos_profile", QoSProfile, "As it was announced.")
 
     def __init__(
         self,
@@ -128,16 +117,22 @@ class ServiceEndpointInfo(_EndpointInfo):
     reader and the second to its writer. On Zenoh it has one.
     """
 
-    service_type: str = _field("service_type", str, "For example ``turtlesim/srv/Spawn``.")
-    service_type_hash: TypeHash = _field(
+    service_type: str = checked_property(
+        "service_type", str, "For example ``turtlesim/srv/Spawn``."
+    )
+    service_type_hash: TypeHash = checked_property(
         "service_type_hash", TypeHash, "Hash of the service's definition; Jazzy announces none."
     )
-    qos_profiles: list[QoSProfile] = _field("qos_profiles", list, "As they were announced.")
-    endpoint_gids: list[list[int]] = _field(
+    qos_profiles: list[QoSProfile] = checked_property(
+        "qos_profiles", list, "As they were announced."
+    )
+    endpoint_gids: list[list[int]] = checked_property(
         "endpoint_gids", list, "Of each endpoint, 16 numbers that identify it."
     )
-    endpoint_type: EndpointTypeEnum = _field("endpoint_type", EndpointTypeEnum, "Client or server.")
-    endpoint_count: int = _field("endpoint_count", int, "1 or 2.")
+    endpoint_type: EndpointTypeEnum = checked_property(
+        "endpoint_type", EndpointTypeEnum, "Client or server."
+    )
+    endpoint_count: int = checked_property("endpoint_count", int, "1 or 2.")
 
     def __init__(
         self,

@@ -26,7 +26,7 @@ from .guard_condition import GuardCondition
 from .impl.reexports import reexports
 from .parameter import PARAMETER_SEPARATOR_STRING
 from .publisher import MsgType, Publisher
-from .qos import qos_profile_rosout_default, qos_profile_services_default
+from .qos import qos_profile_services_default
 from .service import Service
 from .subscription import MessageInfo, Subscription
 from .timer import Rate, Timer
@@ -36,9 +36,7 @@ if TYPE_CHECKING:
 
     from ._typing import MsgT, SrvT
     from .callback_groups import CallbackGroup
-    from .context import Context
     from .executors import Executor
-    from .parameter import Parameter
     from .qos import QoSProfile
     from .qos_overriding_options import QoSOverridingOptions
     from .subscription_content_filter_options import ContentFilterOptions
@@ -95,7 +93,7 @@ __getattr__ = reexports(
         "rclpy.logging": ("get_logger",),
         "rclpy.logging_service": ("LoggingService",),
         "rclpy.parameter": ("Parameter",),
-        "rclpy.qos": ("QoSProfile",),
+        "rclpy.qos": ("QoSProfile", "qos_profile_rosout_default"),
         "rclpy.qos_overriding_options": ("QoSOverridingOptions",),
         "rclpy.endpoint_info": ("TopicEndpointInfo",),
         "rclpy.type_support": ("check_is_valid_msg_type", "check_is_valid_srv_type"),
@@ -139,39 +137,9 @@ class Node(BaseNode):
 
     _clock: Clock
 
-    def __init__(
-        self,
-        node_name: str,
-        *,
-        context: Context | None = None,
-        cli_args: list[str] | None = None,
-        namespace: str | None = None,
-        use_global_arguments: bool = True,
-        enable_rosout: bool = True,
-        rosout_qos_profile: QoSProfile | int = qos_profile_rosout_default,
-        start_parameter_services: bool = True,
-        parameter_overrides: list[Parameter] | None = None,
-        allow_undeclared_parameters: bool = False,
-        automatically_declare_parameters_from_overrides: bool = False,
-        enable_logger_service: bool = False,
-    ) -> None:
-        self.__executor: weakref.ref[Executor] | None = None
-        super().__init__(
-            node_name,
-            context=context,
-            cli_args=cli_args,
-            namespace=namespace,
-            use_global_arguments=use_global_arguments,
-            enable_rosout=enable_rosout,
-            rosout_qos_profile=rosout_qos_profile,
-            start_parameter_services=start_parameter_services,
-            parameter_overrides=parameter_overrides,
-            allow_undeclared_parameters=allow_undeclared_parameters,
-            automatically_declare_parameters_from_overrides=(
-                automatically_declare_parameters_from_overrides
-            ),
-            enable_logger_service=enable_logger_service,
-        )
+    __executor: weakref.ref[Executor] | None = None
+
+    def _rclpy_end_with_context(self) -> None:
         self._context.track_node(self)
 
     def _rclpy_make_clock(self) -> Clock:

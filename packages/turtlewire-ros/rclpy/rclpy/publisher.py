@@ -38,9 +38,7 @@ class _EventCallbacks(Protocol):
 
     def create_event_handlers(
         self, callback_group: CallbackGroup, publisher: Publisher[Any], topic_name: str, /
-    ) -> list[Any]:
-        """Make a handler for each callback."""
-        ...
+    ) -> list[Any]: ...
 
 
 class BasePublisher(Generic[MsgT]):

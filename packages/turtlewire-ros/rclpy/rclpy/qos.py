@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum, IntEnum
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from turtlewire.distro import KILTED, since
 from turtlewire.wire import qos as wire_qos
@@ -23,7 +23,7 @@ from ._qos.policies import (
 )
 from ._rclpy_pybind11 import rmw_qos_profile_t
 from .duration import Duration
-from .impl.hints import require, with_hint
+from .impl.hints import checked_property, require, with_hint
 
 __all__ = [
     "DurabilityPolicy",
@@ -92,30 +92,31 @@ class QoSProfile:
         ValueError: A negative depth or an unknown policy value.
     """
 
-    __slots__ = (
-        "_avoid_ros_namespace_conventions",
-        "_deadline",
-        "_depth",
-        "_durability",
-        "_history",
-        "_lifespan",
-        "_liveliness",
-        "_liveliness_lease_duration",
-        "_reliability",
-    )
+    if not TYPE_CHECKING:  # type checkers do not see that the others are properties
+        __slots__ = (
+            "_avoid_ros_namespace_conventions",
+            "_deadline",
+            "_depth",
+            "_durability",
+            "_history",
+            "_lifespan",
+            "_liveliness",
+            "_liveliness_lease_duration",
+            "_reliability",
+        )
     __hash__ = None  # type: ignore[assignment]  # mutable
 
-    _FIELDS = (
-        "history",
-        "depth",
-        "reliability",
-        "durability",
-        "lifespan",
-        "deadline",
-        "liveliness",
-        "liveliness_lease_duration",
-        "avoid_ros_namespace_conventions",
-    )
+    _DEFAULTS: ClassVar[dict[str, Any]] = {
+        "history": HistoryPolicy.KEEP_LAST,
+        "depth": 10,
+        "reliability": ReliabilityPolicy.RELIABLE,
+        "durability": DurabilityPolicy.VOLATILE,
+        "lifespan": _UNSPECIFIED,
+        "deadline": _UNSPECIFIED,
+        "liveliness": LivelinessPolicy.SYSTEM_DEFAULT,
+        "liveliness_lease_duration": _UNSPECIFIED,
+        "avoid_ros_namespace_conventions": False,
+    }
 
     if TYPE_CHECKING:
 
@@ -134,36 +135,22 @@ class QoSProfile:
         ) -> None: ...
 
     def __init__(self, **kwargs: Any) -> None:  # type: ignore[no-redef]  # ROS 2's signature
-        if not all(key in self._FIELDS for key in kwargs):
-            unknown = ", ".join(sorted(kwargs.keys() - set(self._FIELDS)))
+        if not all(key in self._DEFAULTS for key in kwargs):
+            unknown = ", ".join(sorted(kwargs.keys() - self._DEFAULTS.keys()))
             raise with_hint(
                 AssertionError(f"Invalid arguments passed to constructor: {kwargs.keys()!r}"),
-                f"A QoSProfile has no {unknown}; it has {', '.join(self._FIELDS)}",
+                f"A QoSProfile has no {unknown}; it has {', '.join(self._DEFAULTS)}",
             )
         if "history" not in kwargs and "depth" not in kwargs:
             raise InvalidQoSProfileException("History and/or depth settings are required.")
-        # Before the depth, whose check depends on it.
-        self.history = kwargs.get("history", HistoryPolicy.KEEP_LAST)
-        if self.history == HistoryPolicy.KEEP_LAST and "depth" not in kwargs:
+        if "depth" not in kwargs and kwargs["history"] == HistoryPolicy.KEEP_LAST:
             raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
-        self.depth = kwargs.get("depth", 10)
-        self.reliability = kwargs.get("reliability", ReliabilityPolicy.RELIABLE)
-        self.durability = kwargs.get("durability", DurabilityPolicy.VOLATILE)
-        self.lifespan = kwargs.get("lifespan", _UNSPECIFIED)
-        self.deadline = kwargs.get("deadline", _UNSPECIFIED)
-        self.liveliness = kwargs.get("liveliness", LivelinessPolicy.SYSTEM_DEFAULT)
-        self.liveliness_lease_duration = kwargs.get("liveliness_lease_duration", _UNSPECIFIED)
-        self.avoid_ros_namespace_conventions = kwargs.get("avoid_ros_namespace_conventions", False)
+        for policy, default in self._DEFAULTS.items():
+            setattr(self, policy, kwargs.get(policy, default))
 
-    @property
-    def history(self) -> HistoryPolicy:
-        """History policy: which samples are kept."""
-        return self._history
-
-    @history.setter
-    def history(self, value: HistoryPolicy | int) -> None:
-        require(value, int)
-        self._history = HistoryPolicy(value)
+    history: HistoryPolicy = checked_property(
+        "history", HistoryPolicy, "History policy: which samples are kept."
+    )
 
     @property
     def depth(self) -> int:
@@ -175,7 +162,7 @@ class QoSProfile:
         require(value, int)
         if value < 0:
             raise ValueError("history depth must be greater than or equal to zero")
-        if value == 0 and self._history == HistoryPolicy.KEEP_LAST:
+        if value == 0 and self.history == HistoryPolicy.KEEP_LAST:
             import warnings
 
             warnings.warn(
@@ -185,101 +172,61 @@ class QoSProfile:
             )
         self._depth = value
 
-    @property
-    def reliability(self) -> ReliabilityPolicy:
-        """Reliability policy: RELIABLE sends lost samples again."""
-        return self._reliability
-
-    @reliability.setter
-    def reliability(self, value: ReliabilityPolicy | int) -> None:
-        require(value, int)
-        self._reliability = ReliabilityPolicy(value)
-
-    @property
-    def durability(self) -> DurabilityPolicy:
-        """Durability policy: TRANSIENT_LOCAL sends earlier samples to late joiners."""
-        return self._durability
-
-    @durability.setter
-    def durability(self, value: DurabilityPolicy | int) -> None:
-        require(value, int)
-        self._durability = DurabilityPolicy(value)
-
-    @property
-    def lifespan(self) -> Duration:
-        """Time for which a sample is valid; zero means unlimited."""
-        return self._lifespan
-
-    @lifespan.setter
-    def lifespan(self, value: Duration) -> None:
-        require(value, Duration)
-        self._lifespan = value
-
-    @property
-    def deadline(self) -> Duration:
-        """Longest expected time between samples; zero means unlimited."""
-        return self._deadline
-
-    @deadline.setter
-    def deadline(self, value: Duration) -> None:
-        require(value, Duration)
-        self._deadline = value
-
-    @property
-    def liveliness(self) -> LivelinessPolicy:
-        """Liveliness policy: who asserts that a publisher is alive."""
-        return self._liveliness
-
-    @liveliness.setter
-    def liveliness(self, value: LivelinessPolicy | int) -> None:
-        require(value, int)
-        self._liveliness = LivelinessPolicy(value)
-
-    @property
-    def liveliness_lease_duration(self) -> Duration:
-        """Time for which a publisher counts as alive after a sign of life; zero means unlimited."""
-        return self._liveliness_lease_duration
-
-    @liveliness_lease_duration.setter
-    def liveliness_lease_duration(self, value: Duration) -> None:
-        require(value, Duration)
-        self._liveliness_lease_duration = value
-
-    @property
-    def avoid_ros_namespace_conventions(self) -> bool:
-        """True if the topic name goes out without ROS 2's prefix."""
-        return self._avoid_ros_namespace_conventions
-
-    @avoid_ros_namespace_conventions.setter
-    def avoid_ros_namespace_conventions(self, value: bool) -> None:
-        require(value, bool)
-        self._avoid_ros_namespace_conventions = value
+    reliability: ReliabilityPolicy = checked_property(
+        "reliability", ReliabilityPolicy, "Reliability policy: RELIABLE sends lost samples again."
+    )
+    durability: DurabilityPolicy = checked_property(
+        "durability",
+        DurabilityPolicy,
+        "Durability policy: TRANSIENT_LOCAL sends earlier samples to late joiners.",
+    )
+    lifespan: Duration = checked_property(
+        "lifespan", Duration, "Time for which a sample is valid; zero means unlimited."
+    )
+    deadline: Duration = checked_property(
+        "deadline", Duration, "Longest expected time between samples; zero means unlimited."
+    )
+    liveliness: LivelinessPolicy = checked_property(
+        "liveliness",
+        LivelinessPolicy,
+        "Liveliness policy: who asserts that a publisher is alive.",
+    )
+    liveliness_lease_duration: Duration = checked_property(
+        "liveliness_lease_duration",
+        Duration,
+        "Time for which a publisher counts as alive after a sign of life; zero means unlimited.",
+    )
+    avoid_ros_namespace_conventions: bool = checked_property(
+        "avoid_ros_namespace_conventions",
+        bool,
+        "True if the topic name goes out without ROS 2's prefix.",
+    )
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, QoSProfile):
             return NotImplemented
-        return all(getattr(self, field) == getattr(other, field) for field in self._FIELDS)
+        return all(getattr(self, field) == getattr(other, field) for field in self._DEFAULTS)
 
     def __str__(self) -> str:
-        fields = ", ".join(f"{field}={getattr(self, field)}" for field in self._FIELDS)
+        fields = ", ".join(f"{field}={getattr(self, field)}" for field in self._DEFAULTS)
         return f"{type(self).__name__}({fields})"
 
     def get_c_qos_profile(self) -> rmw_qos_profile_t:
         """Return the policies as the structure of ROS 2's C library."""
-        return rmw_qos_profile_t(**{field: getattr(self, field) for field in self._FIELDS})
+        return rmw_qos_profile_t(**{field: getattr(self, field) for field in self._DEFAULTS})
 
     def to_wire(self) -> wire_qos.QoS:
         """Convert to what the middleware takes."""
         return wire_qos.QoS(
-            history=wire_qos.History(self._history),
-            depth=self._depth,
-            reliability=wire_qos.Reliability(self._reliability),
-            durability=wire_qos.Durability(self._durability),
-            deadline_ns=self._deadline.nanoseconds,
-            lifespan_ns=self._lifespan.nanoseconds,
-            liveliness=wire_qos.Liveliness(self._liveliness),
-            liveliness_lease_ns=self._liveliness_lease_duration.nanoseconds,
-            avoid_ros_namespace_conventions=self._avoid_ros_namespace_conventions,
+            history=wire_qos.History(self.history),
+            depth=self.depth,
+            reliability=wire_qos.Reliability(self.reliability),
+            durability=wire_qos.Durability(self.durability),
+            deadline_ns=self.deadline.nanoseconds,
+            lifespan_ns=self.lifespan.nanoseconds,
+            liveliness=wire_qos.Liveliness(self.liveliness),
+            liveliness_lease_ns=self.liveliness_lease_duration.nanoseconds,
+            avoid_ros_namespace_conventions=self.avoid_ros_namespace_conventions,
         )
 
     @classmethod

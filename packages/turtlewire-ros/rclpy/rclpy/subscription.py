@@ -29,9 +29,7 @@ if TYPE_CHECKING:
 
         def create_event_handlers(
             self, callback_group: CallbackGroup, subscription: Subscription[Any], topic_name: str, /
-        ) -> list[Any]:
-            """Make a handler for each callback."""
-            ...
+        ) -> list[Any]: ...
 
 
 __all__ = ["BaseSubscription", "MessageInfo", "MsgType", "Subscription"]

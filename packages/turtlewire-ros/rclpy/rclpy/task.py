@@ -31,9 +31,7 @@ class FutureState(Enum):
 class _TaskRunner(Protocol):
     """The part of an executor that runs done-callbacks."""
 
-    def create_task(self, callback: Callable[..., Any], *args: Any) -> Any:
-        """Run ``callback(*args)`` soon."""
-        ...
+    def create_task(self, callback: Callable[..., Any], *args: Any) -> Any: ...
 
 
 class Future(Generic[T]):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import total_ordering
 from typing import TYPE_CHECKING, Any
 
 from .clock_type import ClockType
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["S_TO_NS", "Time"]
 
 
+@total_ordering
 class Time:
     """A point in time: nanoseconds since the epoch of its clock type. Immutable.
 
@@ -144,12 +146,3 @@ class Time:
 
     def __lt__(self, other: Any) -> bool:
         return self._nanoseconds < other.nanoseconds if self._comparable(other) else NotImplemented
-
-    def __le__(self, other: Any) -> bool:
-        return self._nanoseconds <= other.nanoseconds if self._comparable(other) else NotImplemented
-
-    def __gt__(self, other: Any) -> bool:
-        return self._nanoseconds > other.nanoseconds if self._comparable(other) else NotImplemented
-
-    def __ge__(self, other: Any) -> bool:
-        return self._nanoseconds >= other.nanoseconds if self._comparable(other) else NotImplemented

@@ -226,6 +226,4 @@ class ClosingEntity(Entity):
 class _Owner(Protocol):
     """The owner of an entity: a node or a waitable."""
 
-    def _work_of(self, part: Entity) -> Work | None:
-        """Return the work to run when a part is ready."""
-        ...
+    def _work_of(self, part: Entity) -> Work | None: ...

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from turtlewire.errors import WireError
 
@@ -14,7 +14,7 @@ from .membership import Membership
 if TYPE_CHECKING:
     from rclpy.context import Context
 
-    from .entity import Entity, EntityHost
+    from .entity import Entity
     from .wait import ExecutorWait
 
 
@@ -70,7 +70,7 @@ class ServedEntities:
                 self._before_change(membership)
                 membership.entities.pop(entity, None)
             self._forget_pause(entity)
-            entity._leave(self)
+            entity._leave(self)  # type: ignore[arg-type]  # the derived `Scheduler` is a host
 
     def _before_change(self, membership: Membership) -> None:
         """Let its endpoints be attached one by one when the node is taken back."""
@@ -117,7 +117,7 @@ class ServedEntities:
             membership.is_over = True
             self.wait.detach_parked()
 
-    def _listen_to(self, entity: Entity, attach: Callable[[EntityHost], None]) -> None:
+    def _listen_to(self, entity: Entity, attach: Callable[[Any], None]) -> None:
         """Attach an entity; another thread may destroy it, or shut down, at this moment."""
         try:
             attach(self)

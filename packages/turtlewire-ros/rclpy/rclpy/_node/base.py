@@ -136,6 +136,7 @@ class BaseNode:
             from rclpy.logging_service import LoggingService
 
             self.__logging_service = LoggingService(owner)
+        self._rclpy_end_with_context()
 
     def __parameter_event_publisher(self) -> Publisher[Any]:
         from rcl_interfaces.msg import ParameterEvent
@@ -191,6 +192,10 @@ class BaseNode:
         return self._rclpy_endpoints.names.resolve_service(service, only_expand=only_expand)
 
     # Implemented by each kind of node
+
+    def _rclpy_end_with_context(self) -> None:
+        """Have the end of the context destroy the node."""
+        raise NotImplementedError
 
     def _rclpy_make_clock(self) -> BaseClock:
         """Return a new clock of ROS time."""

@@ -18,7 +18,7 @@ from rclpy._node.declarations import name_alone_text
 from rclpy.clock_type import ClockType
 from rclpy.constants import S_TO_NS
 from rclpy.impl.hints import with_hint
-from rclpy.qos import qos_profile_rosout_default, qos_profile_services_default
+from rclpy.qos import qos_profile_services_default
 
 from ._async_entity import AsyncEntity, TaskGroup
 from .async_client import AsyncClient, wait_for_graph
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
     from rcl_interfaces.msg import ParameterDescriptor
     from rclpy._typing import MsgT, SrvT
-    from rclpy.context import Context
     from rclpy.parameter import Parameter
     from rclpy.qos import QoSProfile
     from rclpy.subscription import MessageInfo
@@ -74,43 +73,11 @@ class AsyncNode(BaseNode):
 
     _clock: AsyncClock
 
-    def __init__(
-        self,
-        node_name: str,
-        *,
-        context: Context | None = None,
-        cli_args: list[str] | None = None,
-        namespace: str | None = None,
-        use_global_arguments: bool = True,
-        enable_rosout: bool = True,
-        rosout_qos_profile: QoSProfile | int = qos_profile_rosout_default,
-        start_parameter_services: bool = True,
-        parameter_overrides: list[Parameter] | None = None,
-        allow_undeclared_parameters: bool = False,
-        automatically_declare_parameters_from_overrides: bool = False,
-        enable_logger_service: bool = False,
-    ) -> None:
-        self.__loop: asyncio.AbstractEventLoop | None = None
-        self.__in_main_thread = False
-        self.__group: TaskGroup | None = None
-        self.__destroyed = asyncio.Event()
-        super().__init__(
-            node_name,
-            context=context,
-            cli_args=cli_args,
-            namespace=namespace,
-            use_global_arguments=use_global_arguments,
-            enable_rosout=enable_rosout,
-            rosout_qos_profile=rosout_qos_profile,
-            start_parameter_services=start_parameter_services,
-            parameter_overrides=parameter_overrides,
-            allow_undeclared_parameters=allow_undeclared_parameters,
-            automatically_declare_parameters_from_overrides=(
-                automatically_declare_parameters_from_overrides
-            ),
-            enable_logger_service=enable_logger_service,
-        )
-        self._context.on_shutdown(self._rclpy_end_with_context)
+    __loop: asyncio.AbstractEventLoop | None = None
+    __in_main_thread = False
+    __group: TaskGroup | None = None
+    __is_destroyed = False
+    __end: asyncio.Event | None = None
 
     if not TYPE_CHECKING:
 
@@ -118,6 +85,9 @@ class AsyncNode(BaseNode):
             """Raise AttributeError, with a hint for attributes of ordinary nodes."""
             error = AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
             raise with_hint(error, _NOT_IN_ASYNCIO if name in _other_attributes() else "")
+
+    def _rclpy_end_with_context(self) -> None:
+        self._context.on_shutdown(self._rclpy_on_shutdown)
 
     def _rclpy_make_clock(self) -> AsyncClock:
         return AsyncClock(clock_type=ClockType.ROS_TIME)
@@ -137,13 +107,14 @@ class AsyncNode(BaseNode):
         Raises:
             RuntimeError: The node runs already, or was destroyed.
         """
-        if self.__destroyed.is_set():
+        if self.__is_destroyed:
             raise RuntimeError("Node has been destroyed and cannot be reentered")
         if self.__group is not None:
             raise RuntimeError("Node is already running")
         self.__loop = asyncio.get_running_loop()
         loops_of_nodes.add(self.__loop)
         self.__in_main_thread = threading.current_thread() is threading.main_thread()
+        self.__end = asyncio.Event()
         self.__group = group = TaskGroup()
         await group.__aenter__()
         if not self._context.ok():  # a signal came since it was made
@@ -173,21 +144,24 @@ class AsyncNode(BaseNode):
             ExceptionGroup: A callback raised an exception.
         """
         async with self:
-            await self.__destroyed.wait()
+            assert self.__end is not None
+            await self.__end.wait()
 
     def destroy_node(self) -> None:
         """Leave the graph, close all endpoints and cancel all callbacks and sleeps. Idempotent.
 
         In a callback, the next ``await`` of this callback is cancelled as well.
         """
-        if self.__destroyed.is_set():
+        if self.__is_destroyed:
             return
-        self.__destroyed.set()
+        self.__is_destroyed = True
+        if self.__end is not None:
+            self.__end.set()
         self._rclpy_endpoints.destroy_all()
         self._clock._destroy()
         self._rclpy_core.close()
 
-    def _rclpy_end_with_context(self) -> None:
+    def _rclpy_on_shutdown(self) -> None:
         """Destroy the node, in its own thread; any thread calls this at the end of the context."""
         loop, signum = self.__loop, self._context.signal
         if signum is None and (loop is None or loop.is_closed() or running_loop() is loop):
@@ -380,7 +354,7 @@ class AsyncNode(BaseNode):
         )
 
     def __check_alive(self, what: str) -> None:
-        if self.__destroyed.is_set():
+        if self.__is_destroyed:
             raise RuntimeError(f"Cannot create {what} on a destroyed node")
 
     def __own(self, entity: _AnyEntity) -> _AnyEntity:

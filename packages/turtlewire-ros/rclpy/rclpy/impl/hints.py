@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from enum import Enum
+from operator import attrgetter
 from typing import Any, TypeVar
 
 _Error = TypeVar("_Error", bound=BaseException)
@@ -38,3 +40,20 @@ def require(value: object, kind: type) -> None:
         raise AssertionError(  # noqa: TRY004 - ROS 2's error
             f"expected an object of type {kind.__name__}, got {described(value)}"
         )
+
+
+def checked_property(name: str, kind: type, doc: str) -> Any:
+    """Return a property that refuses values of other types, as ROS 2 does.
+
+    Args:
+        name: Its name; the value is in the attribute with an underscore before it.
+        kind: The type. For an enumeration, numbers become its members.
+        doc: The documentation of the property.
+    """
+    slot, is_enumeration = f"_{name}", issubclass(kind, Enum)
+
+    def write(self: Any, value: Any) -> None:
+        require(value, int if is_enumeration else kind)
+        setattr(self, slot, kind(value) if is_enumeration else value)
+
+    return property(attrgetter(slot), write, doc=doc)
