@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum, IntEnum
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.distro import KILTED, since
 from turtlewire.wire import qos as wire_qos
@@ -68,6 +68,18 @@ _UNSPECIFIED = Duration()
 _INFINITE_NS = wire_qos.INFINITE_NS
 #: rmw's mark for "as strict as the other side allows".
 _BEST_AVAILABLE = Duration(nanoseconds=_INFINITE_NS - 1)
+#: The policies of a profile and their values unless given.
+_DEFAULTS: dict[str, Any] = {
+    "history": HistoryPolicy.KEEP_LAST,
+    "depth": 10,
+    "reliability": ReliabilityPolicy.RELIABLE,
+    "durability": DurabilityPolicy.VOLATILE,
+    "lifespan": _UNSPECIFIED,
+    "deadline": _UNSPECIFIED,
+    "liveliness": LivelinessPolicy.SYSTEM_DEFAULT,
+    "liveliness_lease_duration": _UNSPECIFIED,
+    "avoid_ros_namespace_conventions": False,
+}
 
 
 class QoSProfile:
@@ -92,31 +104,8 @@ class QoSProfile:
         ValueError: A negative depth or an unknown policy value.
     """
 
-    if not TYPE_CHECKING:  # type checkers do not see that the others are properties
-        __slots__ = (
-            "_avoid_ros_namespace_conventions",
-            "_deadline",
-            "_depth",
-            "_durability",
-            "_history",
-            "_lifespan",
-            "_liveliness",
-            "_liveliness_lease_duration",
-            "_reliability",
-        )
+    __slots__ = tuple(f"_{policy}" for policy in _DEFAULTS)
     __hash__ = None  # type: ignore[assignment]  # mutable
-
-    _DEFAULTS: ClassVar[dict[str, Any]] = {
-        "history": HistoryPolicy.KEEP_LAST,
-        "depth": 10,
-        "reliability": ReliabilityPolicy.RELIABLE,
-        "durability": DurabilityPolicy.VOLATILE,
-        "lifespan": _UNSPECIFIED,
-        "deadline": _UNSPECIFIED,
-        "liveliness": LivelinessPolicy.SYSTEM_DEFAULT,
-        "liveliness_lease_duration": _UNSPECIFIED,
-        "avoid_ros_namespace_conventions": False,
-    }
 
     if TYPE_CHECKING:
 
@@ -135,17 +124,17 @@ class QoSProfile:
         ) -> None: ...
 
     def __init__(self, **kwargs: Any) -> None:  # type: ignore[no-redef]  # ROS 2's signature
-        if not all(key in self._DEFAULTS for key in kwargs):
-            unknown = ", ".join(sorted(kwargs.keys() - self._DEFAULTS.keys()))
+        if not all(key in _DEFAULTS for key in kwargs):
+            unknown = ", ".join(sorted(kwargs.keys() - _DEFAULTS.keys()))
             raise with_hint(
                 AssertionError(f"Invalid arguments passed to constructor: {kwargs.keys()!r}"),
-                f"A QoSProfile has no {unknown}; it has {', '.join(self._DEFAULTS)}",
+                f"A QoSProfile has no {unknown}; it has {', '.join(_DEFAULTS)}",
             )
         if "history" not in kwargs and "depth" not in kwargs:
             raise InvalidQoSProfileException("History and/or depth settings are required.")
         if "depth" not in kwargs and kwargs["history"] == HistoryPolicy.KEEP_LAST:
             raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
-        for policy, default in self._DEFAULTS.items():
+        for policy, default in _DEFAULTS.items():
             setattr(self, policy, kwargs.get(policy, default))
 
     history: HistoryPolicy = checked_property(
@@ -205,15 +194,15 @@ class QoSProfile:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, QoSProfile):
             return NotImplemented
-        return all(getattr(self, field) == getattr(other, field) for field in self._DEFAULTS)
+        return all(getattr(self, field) == getattr(other, field) for field in _DEFAULTS)
 
     def __str__(self) -> str:
-        fields = ", ".join(f"{field}={getattr(self, field)}" for field in self._DEFAULTS)
+        fields = ", ".join(f"{field}={getattr(self, field)}" for field in _DEFAULTS)
         return f"{type(self).__name__}({fields})"
 
     def get_c_qos_profile(self) -> rmw_qos_profile_t:
         """Return the policies as the structure of ROS 2's C library."""
-        return rmw_qos_profile_t(**{field: getattr(self, field) for field in self._DEFAULTS})
+        return rmw_qos_profile_t(**{field: getattr(self, field) for field in _DEFAULTS})
 
     def to_wire(self) -> wire_qos.QoS:
         """Convert to what the middleware takes."""
