@@ -144,28 +144,25 @@ def test_an_exception_passes_several_nodes(context):
     assert run(failure(main())) == in_groups(2, "RuntimeError", "x")
 
 
-def test_a_callback_that_destroys_its_node_is_cancelled_at_its_next_await(context):
+async def test_a_callback_that_destroys_its_node_is_cancelled_at_its_next_await(context):
     log = []
 
-    async def main():
-        node = AsyncNode("tested", context=context)
+    node = AsyncNode("tested", context=context)
 
-        async def on_message(_message):
-            node.destroy_node()
-            log.append("after destroy_node")
-            try:
-                await asyncio.sleep(0)
-                log.append("after await")
-            except asyncio.CancelledError:
-                log.append("cancelled")
-                raise
+    async def on_message(_message):
+        node.destroy_node()
+        log.append("after destroy_node")
+        try:
+            await asyncio.sleep(0)
+            log.append("after await")
+        except asyncio.CancelledError:
+            log.append("cancelled")
+            raise
 
-        publisher = node.create_publisher(String, "chatter", 10)
-        node.create_subscription(String, "chatter", on_message, 10)
-        publisher.publish(String())
-        await node.run()
-
-    run(main())
+    publisher = node.create_publisher(String, "chatter", 10)
+    node.create_subscription(String, "chatter", on_message, 10)
+    publisher.publish(String())
+    await node.run()
     assert log == ["after destroy_node", "cancelled"]
 
 
@@ -201,22 +198,16 @@ def test_the_shutdown_of_the_context_ends_the_node_but_not_the_block(monkeypatch
 
 @pytest.mark.parametrize("thread", ["loop's", "other"])
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
-def test_run_ends_when_the_context_is_shut_down(monkeypatch, middleware, thread):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
-
-    async def main(context):
-        node = AsyncNode("tested", context=context)
-        node.create_subscription(String, "chatter", print, 10)
-        loop = asyncio.get_running_loop()
-        if thread == "other":
-            loop.call_soon(loop.run_in_executor, None, context.shutdown)
-        else:
-            loop.call_soon(context.shutdown)
-        await node.run()
-
-    with Context() as context:
-        run(main(context))
-        assert not context.ok()
+async def test_run_ends_when_the_context_is_shut_down(context, thread):
+    node = AsyncNode("tested", context=context)
+    node.create_subscription(String, "chatter", print, 10)
+    loop = asyncio.get_running_loop()
+    if thread == "other":
+        loop.call_soon(loop.run_in_executor, None, context.shutdown)
+    else:
+        loop.call_soon(context.shutdown)
+    await node.run()
+    assert not context.ok()
 
 
 def test_a_node_that_does_not_run_ends_with_its_context(monkeypatch):

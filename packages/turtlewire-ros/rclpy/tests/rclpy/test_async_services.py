@@ -4,16 +4,14 @@ import asyncio
 
 import pytest
 
-from rclpy.context import Context
 from rclpy.experimental import AsyncNode
 from std_srvs.srv import SetBool
 
-from .asyncio_nodes import failure, run, turns
+from .asyncio_nodes import failure, turns
 
 
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
-def test_a_call(monkeypatch, middleware):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
+async def test_a_call(context):
 
     async def answer(request, response):
         await asyncio.sleep(0)
@@ -21,49 +19,41 @@ def test_a_call(monkeypatch, middleware):
         response.message = "m"
         return response
 
-    async def main(context):
-        server, asking = AsyncNode("server", context=context), AsyncNode("asking", context=context)
-        async with server, asking:
-            client = asking.create_client(SetBool, "switch")
-            assert not client.service_is_ready()
-            waiting = asyncio.ensure_future(client.wait_for_service(check_interval=1.0))
-            await turns()
-            assert not waiting.done()
-            server.create_service(SetBool, "switch", answer)
-            await waiting
-            assert client.service_is_ready()
-            response = await client.call(SetBool.Request(data=True))
-            assert (response.success, response.message) == (True, "m")
-
-    with Context() as context:
-        run(main(context))
+    server, asking = AsyncNode("server", context=context), AsyncNode("asking", context=context)
+    async with server, asking:
+        client = asking.create_client(SetBool, "switch")
+        assert not client.service_is_ready()
+        waiting = asyncio.ensure_future(client.wait_for_service(check_interval=1.0))
+        await turns()
+        assert not waiting.done()
+        server.create_service(SetBool, "switch", answer)
+        await waiting
+        assert client.service_is_ready()
+        response = await client.call(SetBool.Request(data=True))
+        assert (response.success, response.message) == (True, "m")
 
 
 @pytest.mark.parametrize("concurrent", [False, True])
-def test_several_calls_at_once(context, concurrent):
+async def test_several_calls_at_once(context, concurrent):
     running = most = 0
+    all_asked = asyncio.Event()
 
-    async def main():
-        all_asked = asyncio.Event()
+    async def answer(_request, response):
+        nonlocal running, most
+        running += 1
+        most = max(most, running)
+        await all_asked.wait()
+        await turns()
+        running -= 1
+        return response
 
-        async def answer(_request, response):
-            nonlocal running, most
-            running += 1
-            most = max(most, running)
-            await all_asked.wait()
-            await turns()
-            running -= 1
-            return response
-
-        async with AsyncNode("tested", context=context) as node:
-            node.create_service(SetBool, "switch", answer, concurrent=concurrent)
-            client = node.create_client(SetBool, "switch")
-            calls = asyncio.gather(*(client.call(SetBool.Request()) for _ in range(4)))
-            await turns()
-            all_asked.set()
-            assert len(await calls) == 4
-
-    run(main())
+    async with AsyncNode("tested", context=context) as node:
+        node.create_service(SetBool, "switch", answer, concurrent=concurrent)
+        client = node.create_client(SetBool, "switch")
+        calls = asyncio.gather(*(client.call(SetBool.Request()) for _ in range(4)))
+        await turns()
+        all_asked.set()
+        assert len(await calls) == 4
     assert most == (4 if concurrent else 1)
 
 

@@ -5,39 +5,34 @@ import asyncio
 import pytest
 from tests.needs import needs_cyclone_dds
 
-from rclpy.context import Context
 from rclpy.experimental import AsyncNode
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
-from .asyncio_nodes import failure, failure_of, run, turns, until
+from .asyncio_nodes import failure, failure_of, turns, until
 
 
 @pytest.mark.parametrize("concurrent", [False, True])
-def test_the_order_of_callbacks_that_wait(context, concurrent):
+async def test_the_order_of_callbacks_that_wait(context, concurrent):
     log = []
+    may_end = asyncio.Event()
+    ended = asyncio.Semaphore(0)
 
-    async def main():
-        may_end = asyncio.Event()
-        ended = asyncio.Semaphore(0)
+    async def on_message(message):
+        log.append(f"begin {message.data}")
+        await may_end.wait()
+        log.append(f"end {message.data}")
+        ended.release()
 
-        async def on_message(message):
-            log.append(f"begin {message.data}")
-            await may_end.wait()
-            log.append(f"end {message.data}")
-            ended.release()
-
-        async with AsyncNode("tested", context=context) as node:
-            publisher = node.create_publisher(String, "chatter", 10)
-            node.create_subscription(String, "chatter", on_message, 10, concurrent=concurrent)
-            for text in "123":
-                publisher.publish(String(data=text))
-            await turns()
-            may_end.set()
-            for _ in "123":
-                await ended.acquire()
-
-    run(main())
+    async with AsyncNode("tested", context=context) as node:
+        publisher = node.create_publisher(String, "chatter", 10)
+        node.create_subscription(String, "chatter", on_message, 10, concurrent=concurrent)
+        for text in "123":
+            publisher.publish(String(data=text))
+        await turns()
+        may_end.set()
+        for _ in "123":
+            await ended.acquire()
     if concurrent:
         assert log == ["begin 1", "begin 2", "begin 3", "end 1", "end 2", "end 3"]
     else:
@@ -45,31 +40,26 @@ def test_the_order_of_callbacks_that_wait(context, concurrent):
 
 
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
-def test_the_middleware_drops_what_a_slow_callback_leaves(monkeypatch, middleware):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
+async def test_the_middleware_drops_what_a_slow_callback_leaves(context):
     heard = []
 
-    async def main(context):
-        may_end, last = asyncio.Event(), asyncio.Event()
+    may_end, last = asyncio.Event(), asyncio.Event()
 
-        async def on_message(message):
-            heard.append(message.data)
-            if message.data == "6":
-                last.set()
-            await may_end.wait()
+    async def on_message(message):
+        heard.append(message.data)
+        if message.data == "6":
+            last.set()
+        await may_end.wait()
 
-        async with AsyncNode("tested", context=context) as node:
-            publisher = node.create_publisher(String, "chatter", 10)
-            node.create_subscription(String, "chatter", on_message, 2)
-            publisher.publish(String(data="1"))
-            await until(lambda: heard)
-            for text in "23456":
-                publisher.publish(String(data=text))
-            may_end.set()
-            await last.wait()
-
-    with Context() as context:
-        run(main(context))
+    async with AsyncNode("tested", context=context) as node:
+        publisher = node.create_publisher(String, "chatter", 10)
+        node.create_subscription(String, "chatter", on_message, 2)
+        publisher.publish(String(data="1"))
+        await until(lambda: heard)
+        for text in "23456":
+            publisher.publish(String(data=text))
+        may_end.set()
+        await last.wait()
     assert heard == ["1", "5", "6"]
 
 
@@ -85,31 +75,27 @@ async def test_endpoints_that_are_made_before_the_node_runs(context):
         await heard.wait()
 
 
-def test_a_subscription_that_is_destroyed_cancels_its_callback(context):
+async def test_a_subscription_that_is_destroyed_cancels_its_callback(context):
     log = []
+    inside = asyncio.Event()
 
-    async def main():
-        inside = asyncio.Event()
+    async def on_message(_message):
+        inside.set()
+        try:
+            await asyncio.Event().wait()
+        except asyncio.CancelledError:
+            log.append("cancelled")
+            raise
 
-        async def on_message(_message):
-            inside.set()
-            try:
-                await asyncio.Event().wait()
-            except asyncio.CancelledError:
-                log.append("cancelled")
-                raise
-
-        async with AsyncNode("tested", context=context) as node:
-            publisher = node.create_publisher(String, "chatter", 10)
-            with node.create_subscription(String, "chatter", on_message, 10) as subscription:
-                publisher.publish(String())
-                await inside.wait()
-            subscription.destroy()
-            await turns()
-            log.append("the node runs")
-            assert node.count_subscribers("chatter") == 0
-
-    run(main())
+    async with AsyncNode("tested", context=context) as node:
+        publisher = node.create_publisher(String, "chatter", 10)
+        with node.create_subscription(String, "chatter", on_message, 10) as subscription:
+            publisher.publish(String())
+            await inside.wait()
+        subscription.destroy()
+        await turns()
+        log.append("the node runs")
+        assert node.count_subscribers("chatter") == 0
     assert log == ["cancelled", "the node runs"]
 
 
@@ -121,21 +107,16 @@ def test_a_subscription_that_is_destroyed_cancels_its_callback(context):
         pytest.param("rmw_cyclonedds_cpp", type(None), marks=needs_cyclone_dds),
     ],
 )
-def test_a_callback_gets_the_message_info(monkeypatch, middleware, counted):
+async def test_a_callback_gets_the_message_info(context, middleware, counted):
     """Cyclone DDS does not report the publisher's count of a message; ROS 2 says None then."""
-    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
 
-    async def main(context):
-        infos = asyncio.Queue()
-        async with AsyncNode("tested", context=context) as node:
-            node.create_subscription(String, "t", lambda _, info: infos.put_nowait(info), 10)
-            publisher = node.create_publisher(String, "t", 10)
-            publisher.publish(String())
-            publisher.publish(String())
-            return [await infos.get(), await infos.get()]
-
-    with Context() as context:
-        infos = run(main(context))
+    heard = asyncio.Queue()
+    async with AsyncNode("tested", context=context) as node:
+        node.create_subscription(String, "t", lambda _, info: heard.put_nowait(info), 10)
+        publisher = node.create_publisher(String, "t", 10)
+        publisher.publish(String())
+        publisher.publish(String())
+        infos = [await heard.get(), await heard.get()]
     assert {key: type(value) for key, value in infos[0].items()} == {
         "source_timestamp": int,
         "received_timestamp": int,
@@ -185,45 +166,36 @@ async def test_callbacks_without_await_leave_the_loop_to_others(context):
     assert heard
 
 
-def test_a_malformed_message_is_skipped(context, capfd):
-    async def main():
-        heard = asyncio.Queue()
-        async with AsyncNode("tested", context=context) as node:
-            node.create_subscription(String, "chatter", heard.put, 10)
-            publisher = node.create_publisher(String, "chatter", 10)
-            publisher.publish(b"\x00\x01\x00\x00\xff\xff\xff\xff")
-            publisher.publish(String(data="good"))
-            assert (await heard.get()).data == "good"
-
-    run(main())
+async def test_a_malformed_message_is_skipped(context, capfd):
+    heard = asyncio.Queue()
+    async with AsyncNode("tested", context=context) as node:
+        node.create_subscription(String, "chatter", heard.put, 10)
+        publisher = node.create_publisher(String, "chatter", 10)
+        publisher.publish(b"\x00\x01\x00\x00\xff\xff\xff\xff")
+        publisher.publish(String(data="good"))
+        assert (await heard.get()).data == "good"
     assert "Ignoring a malformed message on topic '/chatter'" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
-def test_iterating_over_messages(monkeypatch, middleware):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
-
-    async def main(context):
-        heard = []
-        async with AsyncNode("tested", context=context) as node:
-            publisher = node.create_publisher(String, "chatter", 10)
-            subscription = node.create_subscription(String, "chatter", None, 10)
-            loop = asyncio.get_running_loop()
-            for delay, text in enumerate("123"):
-                loop.call_later(delay / 100, publisher.publish, String(data=text))
-            async for message in subscription:
-                heard.append(message.data)
-                if message.data == "3":
-                    break
-            ending = asyncio.ensure_future(subscription.__anext__())
-            await turns()
-            loop.call_soon(subscription.destroy)
-            heard += [message async for message in subscription]
-            assert (await failure(ending))[0] == "StopAsyncIteration"
-        return heard
-
-    with Context() as context:
-        assert run(main(context)) == ["1", "2", "3"]
+async def test_iterating_over_messages(context):
+    heard = []
+    async with AsyncNode("tested", context=context) as node:
+        publisher = node.create_publisher(String, "chatter", 10)
+        subscription = node.create_subscription(String, "chatter", None, 10)
+        loop = asyncio.get_running_loop()
+        for delay, text in enumerate("123"):
+            loop.call_later(delay / 100, publisher.publish, String(data=text))
+        async for message in subscription:
+            heard.append(message.data)
+            if message.data == "3":
+                break
+        ending = asyncio.ensure_future(subscription.__anext__())
+        await turns()
+        loop.call_soon(subscription.destroy)
+        heard += [message async for message in subscription]
+        assert (await failure(ending))[0] == "StopAsyncIteration"
+    assert heard == ["1", "2", "3"]
 
 
 async def test_an_iteration_that_is_cancelled_loses_nothing(context):

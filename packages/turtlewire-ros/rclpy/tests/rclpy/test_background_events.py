@@ -10,12 +10,9 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
 
+pytestmark = pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
+
 LIMIT_S = 60
-
-
-@pytest.fixture(params=["rmw_cyclonedds_cpp", "local"])
-def middleware(request):
-    return request.param
 
 
 @pytest.fixture

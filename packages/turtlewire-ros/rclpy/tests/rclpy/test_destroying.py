@@ -17,13 +17,10 @@ from rclpy.node import Node
 from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
 
+pytestmark = pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
+
 LIMIT_S = 60
 ROUNDS = 60
-
-
-@pytest.fixture(params=["rmw_cyclonedds_cpp", "local"])
-def middleware(request):
-    return request.param
 
 
 class Spinning:

@@ -9,7 +9,6 @@ from tests.needs import needs_cyclone_dds
 import rclpy
 from rclpy import event_handler
 from rclpy._qos import events
-from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.event_handler import (
     PublisherEventCallbacks,
@@ -18,7 +17,6 @@ from rclpy.event_handler import (
     SubscriptionEventCallbacks,
 )
 from rclpy.exceptions import InvalidParameterTypeException
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import (
@@ -34,55 +32,36 @@ RELIABLE = QoSProfile(depth=1)
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
-class World:
-    def __init__(self, node, executor):
-        self.node, self.executor = node, executor
-
-    def spin_until(self, condition):
-        for _ in range(200):
-            if condition():
-                return
-            self.executor.spin_once(timeout_sec=0.1)
-        raise AssertionError("it did not come true")
+BOTH = pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
 
 
-@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
-def world(request, monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", request.param)
-    with Context() as context:
-        node = Node("eventful", context=context, start_parameter_services=False)
-        executor = SingleThreadedExecutor(context=context)
-        executor.add_node(node)
-        yield World(node, executor)
-        executor.shutdown()
-        node.destroy_node()
-
-
-def test_matches(world):
+@BOTH
+def test_matches(node, spin_until):
     seen = []
-    publisher = world.node.create_publisher(
+    publisher = node.create_publisher(
         String, "a", 1, event_callbacks=PublisherEventCallbacks(matched=seen.append)
     )
-    subscription = world.node.create_subscription(String, "a", print, 1)
-    world.spin_until(lambda: seen)
+    subscription = node.create_subscription(String, "a", print, 1)
+    spin_until(lambda: seen)
     assert seen.pop() == event_handler.QoSPublisherMatchedInfo(1, 1, 1, 1)
-    world.node.destroy_subscription(subscription)
-    world.spin_until(lambda: seen)
+    node.destroy_subscription(subscription)
+    spin_until(lambda: seen)
     assert seen.pop() == event_handler.QoSPublisherMatchedInfo(1, 0, 0, -1)
-    world.node.destroy_publisher(publisher)
+    node.destroy_publisher(publisher)
 
 
-def test_unmatched_endpoints_are_reported(world):
+@BOTH
+def test_unmatched_endpoints_are_reported(node, spin_until):
     offered, requested = [], []
-    world.node.create_publisher(
+    node.create_publisher(
         String,
         "a",
         BEST_EFFORT,
         event_callbacks=PublisherEventCallbacks(incompatible_qos=offered.append),
     )
     callbacks = SubscriptionEventCallbacks(incompatible_qos=requested.append)
-    world.node.create_subscription(String, "a", print, RELIABLE, event_callbacks=callbacks)
-    world.spin_until(lambda: offered and requested)
+    node.create_subscription(String, "a", print, RELIABLE, event_callbacks=callbacks)
+    spin_until(lambda: offered and requested)
     assert (
         offered
         == requested
@@ -92,18 +71,19 @@ def test_unmatched_endpoints_are_reported(world):
     assert str(offered[0].last_policy_kind) == text
 
 
-def test_ros_2s_warnings(world, capfd):
-    world.node.create_publisher(String, "a", RELIABLE)
+@BOTH
+def test_ros_2s_warnings(node, spin_until, capfd):
+    node.create_publisher(String, "a", RELIABLE)
     late = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    world.node.create_subscription(String, "a", print, late)
+    node.create_subscription(String, "a", print, late)
     lines = []
 
     def both():
         lines.extend(capfd.readouterr().err.splitlines())
         return len(lines) == 2
 
-    world.spin_until(both)
-    texts = sorted(line.partition("[eventful]: ")[2] for line in lines)
+    spin_until(both)
+    texts = sorted(line.partition("[tested]: ")[2] for line in lines)
     assert texts == [
         (
             "New publisher discovered on topic 'a', offering incompatible QoS. No messages will "
@@ -119,31 +99,33 @@ def test_ros_2s_warnings(world, capfd):
     assert all(line.startswith("[WARN] ") for line in lines)
 
 
-def test_the_warnings_can_be_switched_off(world, capfd):
+@BOTH
+def test_the_warnings_can_be_switched_off(node, spin_until, capfd):
     matched = []
-    world.node.create_publisher(
+    node.create_publisher(
         String,
         "a",
         BEST_EFFORT,
         event_callbacks=PublisherEventCallbacks(use_default_callbacks=False),
     )
     callbacks = SubscriptionEventCallbacks(use_default_callbacks=False)
-    world.node.create_subscription(String, "a", print, RELIABLE, event_callbacks=callbacks)
-    world.node.create_publisher(
+    node.create_subscription(String, "a", print, RELIABLE, event_callbacks=callbacks)
+    node.create_publisher(
         String, "b", 1, event_callbacks=PublisherEventCallbacks(matched=matched.append)
     )
-    world.node.create_subscription(String, "b", print, 1)
-    world.spin_until(lambda: matched)
+    node.create_subscription(String, "b", print, 1)
+    spin_until(lambda: matched)
     assert capfd.readouterr().err == ""
 
 
-def test_handlers_of_events_that_never_happen_are_accepted(world):
+@BOTH
+def test_handlers_of_events_that_never_happen_are_accepted(node, spin_until):
     called = []
-    world.node.create_publisher(
+    node.create_publisher(
         String, "a", 1, event_callbacks=PublisherEventCallbacks(incompatible_type=called.append)
     )
     matched = []
-    world.node.create_subscription(
+    node.create_subscription(
         String,
         "a",
         print,
@@ -152,13 +134,14 @@ def test_handlers_of_events_that_never_happen_are_accepted(world):
             incompatible_type=called.append, matched=matched.append
         ),
     )
-    world.node.create_publisher(Int32, "a", 1)
-    world.spin_until(lambda: matched)
+    node.create_publisher(Int32, "a", 1)
+    spin_until(lambda: matched)
     assert called == []
 
 
-def test_handlers_go_with_their_endpoint(world):
-    publisher = world.node.create_publisher(String, "a", 1)
+@BOTH
+def test_handlers_go_with_their_endpoint(node, spin_until):
+    publisher = node.create_publisher(String, "a", 1)
     (handler,) = publisher.event_handlers
     publisher.destroy()
     assert handler._destroyed
@@ -258,23 +241,18 @@ def test_wrong_overrides(context):
 
 
 @needs_cyclone_dds
-def test_a_publisher_misses_its_deadline_without_a_subscription(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
-    with Context() as context:
-        node = Node("alone", context=context)
-        executor = SingleThreadedExecutor(context=context)
-        executor.add_node(node)
-        missed = rclpy.task.Future()
-        publisher = node.create_publisher(
-            String,
-            "promised",
-            QoSProfile(depth=1, deadline=Duration(nanoseconds=50_000_000)),
-            event_callbacks=PublisherEventCallbacks(deadline=missed.set_result),
-        )
-        publisher.publish(String())
-        executor.spin_until_future_complete(missed, timeout_sec=60)
-        assert missed.result().total_count >= 1
-        executor.shutdown()
+@pytest.mark.parametrize("middleware", ["rmw_cyclonedds_cpp"])
+def test_a_publisher_misses_its_deadline_without_a_subscription(node, executor):
+    missed = rclpy.task.Future()
+    publisher = node.create_publisher(
+        String,
+        "promised",
+        QoSProfile(depth=1, deadline=Duration(nanoseconds=50_000_000)),
+        event_callbacks=PublisherEventCallbacks(deadline=missed.set_result),
+    )
+    publisher.publish(String())
+    executor.spin_until_future_complete(missed, timeout_sec=60)
+    assert missed.result().total_count >= 1
 
 
 def test_a_liveliness_change_tells_the_living_from_the_others():
@@ -289,9 +267,10 @@ def test_a_liveliness_change_tells_the_living_from_the_others():
     assert (info.not_alive_count, info.not_alive_count_change) == (1, -2)
 
 
-def test_a_handler_is_a_waitable(world):
+@BOTH
+def test_a_handler_is_a_waitable(node, spin_until):
     seen = []
-    publisher = world.node.create_publisher(
+    publisher = node.create_publisher(
         String, "a", 1, event_callbacks=PublisherEventCallbacks(matched=seen.append)
     )
     handler = next(
@@ -312,16 +291,17 @@ def test_a_handler_is_a_waitable(world):
     former.destroy()
 
 
-def test_an_event_callback_may_be_async(world):
+@BOTH
+def test_an_event_callback_may_be_async(node, spin_until):
     seen = []
 
     async def matched(info):
         seen.append(info.current_count)
 
     callbacks = SubscriptionEventCallbacks(matched=matched)
-    world.node.create_subscription(String, "a", print, 1, event_callbacks=callbacks)
-    world.node.create_publisher(String, "a", 1)
-    world.spin_until(lambda: seen)
+    node.create_subscription(String, "a", print, 1, event_callbacks=callbacks)
+    node.create_publisher(String, "a", 1)
+    spin_until(lambda: seen)
     assert seen == [1]
 
 
@@ -331,27 +311,30 @@ def test_the_former_module_of_events(monkeypatch):
         qos_event = importlib.import_module("rclpy.qos_event")
     for name in qos_event.__all__:
         assert getattr(qos_event, name) is getattr(event_handler, name)
+    for name in ("QoSRequestedDeadlineMissedInfo", "QoSOfferedDeadlineMissedInfo"):
+        assert getattr(qos_event, name)(total_count=3, total_count_change=1) == (3, 1)
 
 
-def test_a_program_may_make_a_handler_itself(world):
+@BOTH
+def test_a_program_may_make_a_handler_itself(node, spin_until):
     published, subscribed = [], []
-    publisher = world.node.create_publisher(String, "a", 1)
-    subscription = world.node.create_subscription(String, "b", print, 1)
+    publisher = node.create_publisher(String, "a", 1)
+    subscription = node.create_subscription(String, "b", print, 1)
     for endpoint, event_type, seen in (
         (publisher, QoSPublisherEventType.RCL_PUBLISHER_MATCHED, published),
         (subscription, QoSSubscriptionEventType.RCL_SUBSCRIPTION_MATCHED, subscribed),
     ):
-        world.node.add_waitable(
+        node.add_waitable(
             event_handler.EventHandler(
-                callback_group=world.node.default_callback_group,
+                callback_group=node.default_callback_group,
                 callback=seen.append,
                 event_type=event_type,
                 parent_impl=endpoint.handle,
             )
         )
-    world.node.create_subscription(String, "a", print, 1)
-    world.node.create_publisher(String, "b", 1)
-    world.spin_until(lambda: published and subscribed)
+    node.create_subscription(String, "a", print, 1)
+    node.create_publisher(String, "b", 1)
+    spin_until(lambda: published and subscribed)
     assert type(published[0]) is event_handler.QoSPublisherMatchedInfo
     assert type(subscribed[0]) is event_handler.QoSSubscriptionMatchedInfo
     assert published[0].current_count == subscribed[0].current_count == 1

@@ -691,16 +691,6 @@ def test_an_executor_knows_whether_it_spins(any_executor, context):
     assert not any_executor.is_spinning
 
 
-def test_a_future_of_an_executor_runs_its_callbacks_there(executor):
-    future = executor.create_future()
-    threads = []
-    future.add_done_callback(lambda done: threads.append((done.result(), threading.get_ident())))
-    future.set_result(5)
-    assert threads == []
-    executor.spin_once(timeout_sec=60)
-    assert threads == [(5, threading.get_ident())]
-
-
 def test_two_threads_cannot_spin_one_executor(executor, spinning):
     spinning(executor)
     while not executor._rclpy_scheduler.is_spun():

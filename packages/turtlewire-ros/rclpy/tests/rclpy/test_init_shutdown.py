@@ -260,14 +260,14 @@ def test_a_spin_within_a_callback_leaves_the_node_where_it_was():
 def test_destroying_after_shutdown_is_fine():
     rclpy.init(args=[])
     node = Node("late")
-    publisher = node.create_publisher(_int32(), "topic", 1)
+    publisher = node.create_publisher(Int32, "topic", 1)
     node.create_timer(1.0, None)
     rclpy.shutdown()
     node.get_logger().info("last words")
     with pytest.raises(RCLError, match="publisher's context is invalid"):
         publisher.publish(b"\x00\x01\x00\x00\x00\x00\x00\x00")
     with pytest.raises(RCLError, match="publisher's context is invalid"):
-        publisher.publish(_int32()())
+        publisher.publish(Int32())
     node.destroy_node()
     node.destroy_node()
 
@@ -314,12 +314,6 @@ def test_after_shutdown_nothing_more_is_created_or_called(monkeypatch, middlewar
     with pytest.raises(RCLError, match="failed to send request"):
         client.call_async(Empty.Request())
     node.destroy_node()
-
-
-def _int32():
-    from std_msgs.msg import Int32
-
-    return Int32
 
 
 def test_every_module_is_an_attribute_of_the_package():

@@ -1,8 +1,13 @@
-"""Whole programs in the shape of ROS 2's introductory examples, each in its own process, over
-Cyclone DDS.
+"""Whole programs, each in its own process.
+
+Those of ROS 2's introductory examples, over Cyclone DDS, and those of docs/how-to/asyncio.md.
 """
 
 import signal
+
+import pytest
+from tests.how_to import blocks, blocks_of
+from tests.places import HOW_TO
 
 PUBLISHER = """
 import rclpy
@@ -160,3 +165,19 @@ def test_remapping_on_the_command_line(program):
     status, _, errors = subscriber.finish()
     assert status == 1
     assert errors.splitlines()[-1].startswith("rclpy.executors.ExternalShutdownException")
+
+
+PAGE = (HOW_TO / "asyncio.md").read_text()
+PROGRAMS, OUTPUTS = blocks_of(PAGE, "python"), blocks_of(PAGE, "text")
+
+
+def test_each_program_has_its_output():
+    assert [kind for kind, _ in blocks(PAGE)] == ["python", "text"] * 4
+
+
+@pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
+@pytest.mark.parametrize("index", range(4))
+def test_a_program_prints_what_the_page_says(program, monkeypatch, middleware, index):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
+    monkeypatch.setenv("PYTHONWARNINGS", "error")
+    assert program(PROGRAMS[index]).finish() == (0, OUTPUTS[index], "")

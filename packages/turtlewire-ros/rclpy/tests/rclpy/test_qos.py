@@ -5,6 +5,7 @@ import textwrap
 import pytest
 from tests.needs import needs_cyclone_dds
 
+from rclpy import qos
 from rclpy.duration import Duration, Infinite
 from rclpy.qos import (
     DurabilityPolicy,
@@ -68,6 +69,7 @@ def test_presets(preset, history, depth, reliability, durability):
         durability,
     )
     assert preset in QoSPresetProfiles.short_keys()
+    assert made == QoSPresetProfiles[preset.upper()].value == getattr(qos, f"qos_profile_{preset}")
     assert QoSProfile.from_wire(made.to_wire()) == made
 
 

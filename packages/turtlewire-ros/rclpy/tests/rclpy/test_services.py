@@ -18,10 +18,7 @@ from std_msgs.msg import Int32
 from std_srvs.srv import SetBool
 from turtlewire.wire.base import RequestId
 
-
-@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
-def middleware(request):
-    return request.param
+pytestmark = pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
 
 
 def add(request, response):

@@ -1,7 +1,7 @@
 """Parts of rclpy's API that `tests/surface` does not cover.
 
-Values of enumerations of ROS 2's C extension, base classes of errors, aliases, presets, and
-attributes that constructors set.
+Values of enumerations of ROS 2's C extension, base classes of errors, aliases, and attributes that
+constructors set.
 """
 
 import ast
@@ -15,8 +15,6 @@ import pytest
 
 import rclpy.node
 import rclpy.qos
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from tests import places
@@ -93,6 +91,9 @@ rclpy.lifecycle.Publisher = rclpy.lifecycle.LifecyclePublisher
 rclpy.lifecycle.State = rclpy.lifecycle.LifecycleState
 rclpy.clock.ClockType = rclpy.clock_type.ClockType
 rclpy.exceptions.InvalidHandle = rclpy._rclpy_pybind11.InvalidHandle
+rclpy.executors.TimerCancelledError = rclpy._rclpy_pybind11.TimerCancelledError
+rclpy.exceptions.TimerCancelledError = rclpy._rclpy_pybind11.TimerCancelledError
+rclpy.node.S_TO_NS = rclpy.constants.S_TO_NS
 rclpy.node.MsgType = rclpy.publisher.MsgType
 rclpy.node.MsgType = rclpy.subscription.MsgType
 rclpy.node.SrvType = rclpy.client.SrvType
@@ -103,17 +104,6 @@ tf2_ros.TFMessage = tf2_msgs.msg.TFMessage
 tf2_geometry_msgs.PoseStamped = geometry_msgs.msg.PoseStamped
 rclpy.impl.logging_severity.LoggingSeverity = rclpy.logging.LoggingSeverity
 rclpy.impl.implementation_singleton.rclpy_implementation = rclpy._rclpy_pybind11
-"""
-
-QOS_PRESETS = """
-default              KEEP_LAST       10    RELIABLE        VOLATILE
-sensor_data          KEEP_LAST       5     BEST_EFFORT     VOLATILE
-services_default     KEEP_LAST       10    RELIABLE        VOLATILE
-parameters           KEEP_LAST       1000  RELIABLE        VOLATILE
-parameter_events     KEEP_LAST       1000  RELIABLE        VOLATILE
-system_default       SYSTEM_DEFAULT  0     SYSTEM_DEFAULT  SYSTEM_DEFAULT
-best_available       KEEP_LAST       10    BEST_AVAILABLE  BEST_AVAILABLE
-action_status_default KEEP_LAST      1     RELIABLE        TRANSIENT_LOCAL
 """
 
 
@@ -155,24 +145,6 @@ def test_errors(path, base):
 def test_aliases(alias):
     one, other = alias.split(" = ")
     assert find(one) is find(other)
-
-
-@pytest.mark.parametrize("row", QOS_PRESETS.strip().splitlines(), ids=lambda row: row.split()[0])
-def test_qos_presets(row):
-    name, history, depth, reliability, durability = row.split()
-    profile = getattr(rclpy.qos, f"qos_profile_{name}")
-    assert (
-        profile
-        == rclpy.qos.QoSPresetProfiles[name.upper()].value
-        == rclpy.qos.QoSPresetProfiles.get_from_short_key(name)
-    )
-    found = (
-        profile.history.name,
-        str(profile.depth),
-        profile.reliability.name,
-        profile.durability.name,
-    )
-    assert found == (history, depth, reliability, durability)
 
 
 def test_common_attributes_of_created_entities(node):
@@ -265,13 +237,6 @@ def test_a_publisher_class_with_a_constructor_as_in_ros_2(node):
     assert list(node.publishers)[-1] is publisher
 
 
-def test_with_statements(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
-    with Context() as context, SingleThreadedExecutor(context=context) as executor:
-        assert executor.context is context
-    assert not context.ok()
-
-
 def test_a_subscription_says_that_nothing_is_filtered(node):
     from rclpy.subscription_content_filter_options import ContentFilterOptions
     from std_msgs.msg import String
@@ -321,23 +286,6 @@ def test_asynchronous_and_other_entities_have_bases_in_common():
         assert issubclass(kind, base)
         assert issubclass(asynchronous, base)
         assert not issubclass(asynchronous, kind)
-
-
-def test_names_of_the_newest_jazzy(monkeypatch):
-    from rclpy import exceptions, executors
-    from rclpy._rclpy_pybind11 import RCLError
-
-    assert executors.TimerCancelledError is exceptions.TimerCancelledError
-    assert issubclass(executors.TimerCancelledError, RCLError)
-    monkeypatch.delitem(sys.modules, "rclpy.qos_event", raising=False)
-    with pytest.warns(DeprecationWarning, match="rclpy.event_handler"):  # when it is imported
-        qos_event = importlib.import_module("rclpy.qos_event")
-    from rclpy import event_handler
-
-    for name in ("QoSRequestedDeadlineMissedInfo", "QoSOfferedDeadlineMissedInfo"):
-        info = getattr(event_handler, name)(total_count=3, total_count_change=1)
-        assert info == (3, 1)
-        assert getattr(qos_event, name) is type(info)
 
 
 # Private attributes that ROS 2's nodes have as well; programs know better than to take these names.
@@ -430,31 +378,3 @@ def test_bases_of_interfaces_for_annotations():
     kinds = {String: Msg, Empty: Srv, Fibonacci: Action}
     for interface, kind in kinds.items():
         assert [each for each in (Msg, Srv, Action) if issubclass(interface, each)] == [kind]
-
-
-def test_nanoseconds_of_a_second():
-    from rclpy.duration import Duration
-    from rclpy.node import S_TO_NS
-
-    assert Duration(seconds=2).nanoseconds == 2 * S_TO_NS
-
-
-def test_callbacks_of_parameter_events():
-    from rcl_interfaces.msg import Parameter, ParameterEvent
-    from rclpy.parameter_event_handler import (
-        ParameterCallbackHandle,
-        ParameterEventCallbackHandle,
-        ParameterEventHandler,
-    )
-
-    called = []
-    callbacks = ParameterEventHandler.Callbacks()
-    for name in ("a", "b"):
-        handle = ParameterCallbackHandle(name, "/n", lambda message: called.append(message.name))
-        callbacks.parameter_callbacks.append(handle)
-    callbacks.event_callbacks.append(ParameterEventCallbackHandle(called.append))
-    event = ParameterEvent(node="/n", changed_parameters=[Parameter(name="b")])
-    callbacks.event_callback(event)
-    assert called == ["b", event]
-    callbacks.event_callback(b"raw")
-    assert called == ["b", event, b"raw"]

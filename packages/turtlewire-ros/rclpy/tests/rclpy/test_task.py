@@ -152,13 +152,6 @@ def test_cancelling_a_task_runs_the_finally_blocks_of_its_coroutine():
     assert task.cancelled()
 
 
-def test_an_executor_runs_tasks_newest_first(executor, spin_until):
-    order = []
-    tasks = [executor.create_task(order.append, number) for number in range(3)]
-    spin_until(lambda: all(task.done() for task in tasks))
-    assert order == [2, 1, 0]
-
-
 def test_tasks_wait_for_each_other_without_polling(executor):
     steps = []
     gate = Future(executor=executor)
@@ -208,8 +201,11 @@ def test_a_task_runs_while_another_thread_imports_asyncio(executor, monkeypatch)
     assert task.result() == "end"
 
 
-def test_done_callbacks_run_as_tasks_of_the_executor(executor):
-    future = Future(executor=executor)
+@pytest.mark.parametrize(
+    "make", [lambda executor: Future(executor=executor), lambda executor: executor.create_future()]
+)
+def test_done_callbacks_run_as_tasks_of_the_executor(executor, make):
+    future = make(executor)
     threads = []
     future.add_done_callback(lambda _: threads.append(threading.current_thread()))
     setter = threading.Thread(target=future.set_result, args=(1,))

@@ -26,10 +26,7 @@ from std_msgs.msg import Int32, String
 from std_srvs.srv import Trigger
 from turtlewire.errors import CdrError
 
-
-@pytest.fixture(params=["local", "rmw_cyclonedds_cpp"])
-def middleware(request):
-    return request.param
+pytestmark = pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
 
 
 def matched(context, publisher):
