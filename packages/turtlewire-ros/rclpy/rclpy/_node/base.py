@@ -307,19 +307,24 @@ class BaseNode:
         return self._parameters.get_parameters_by_prefix(prefix)
 
     def get_parameter_type(self, name: str) -> Any:
-        """Return the type of a parameter."""
+        """Return the number of a parameter's type; raise `ParameterNotDeclaredException`."""
         return self._parameters.get_parameter_type(name)
 
     def get_parameter_types(self, names: list[str]) -> list[Any]:
-        """Return the types of several parameters."""
+        """Return the types of several parameters, as :meth:`get_parameter_type` does."""
         return self._parameters.get_parameter_types(names)
 
     def set_parameters(self, parameter_list: list[Parameter]) -> list[SetParametersResult]:
-        """Set parameters one by one; each result says whether it was accepted, and why not."""
+        """Set parameters one by one; each result says whether it was accepted, and why not.
+
+        Raises:
+            ParameterNotDeclaredException: A parameter is not declared, and undeclared parameters
+                are not allowed; the preceding parameters are set.
+        """
         return self._parameters.set_parameters(parameter_list)
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
-        """Set all parameters, or none."""
+        """Set all parameters, or none; raise `ParameterNotDeclaredException` for unknown ones."""
         return self._parameters.set_parameters_atomically(parameter_list)
 
     def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
@@ -327,17 +332,32 @@ class BaseNode:
         return self._parameters.list_parameters(prefixes, depth)
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """Return the descriptor of a parameter."""
+        """Return a parameter's descriptor with its present type, empty if it is undeclared.
+
+        Raises:
+            ParameterNotDeclaredException: The parameter is not declared, and undeclared parameters
+                are not allowed.
+        """
         return self._parameters.describe_parameter(name)
 
     def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
-        """Return the descriptors of parameters."""
+        """Return several descriptors; raises as :meth:`describe_parameter`."""
         return self._parameters.describe_parameters(names)
 
     def set_descriptor(
         self, name: str, descriptor: ParameterDescriptor, alternative_value: Any = None
     ) -> Any:
-        """Replace a descriptor, and the value by ``alternative_value`` if it does not fit."""
+        """Replace a descriptor, and the value by ``alternative_value`` if it does not fit.
+
+        Returns:
+            The value that the parameter has now.
+
+        Raises:
+            ParameterNotDeclaredException: The parameter is not declared, and undeclared parameters
+                are not allowed.
+            ParameterImmutableException: The parameter is read-only.
+            InvalidParameterValueException: Neither value agrees with the descriptor.
+        """
         return self._parameters.set_descriptor(name, descriptor, alternative_value)
 
     def add_pre_set_parameters_callback(

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 class DeclaredParameters(Mapping[str, Parameter]):
     """Values and descriptors by name; :class:`NodeParameters` changes them.
 
+    The methods are those of :class:`rclpy.node.Node`, which describes them.
+
     Programs read ``node._parameters`` as the dictionary that it is in ROS 2.
 
     Args:
@@ -39,18 +41,9 @@ class DeclaredParameters(Mapping[str, Parameter]):
         return len(self._parameters)
 
     def has_parameter(self, name: str) -> bool:
-        """Return True if a parameter is declared."""
         return name in self._parameters
 
     def get_parameter(self, name: str) -> Parameter:
-        """Return a parameter.
-
-        Raises:
-            ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
-                allowed.
-            ParameterUninitializedException: The parameter was declared only with a type, and never
-                set.
-        """
         parameter = self._parameters.get(name)
         if parameter is None:
             if self._allow_undeclared:
@@ -61,13 +54,11 @@ class DeclaredParameters(Mapping[str, Parameter]):
         return parameter
 
     def get_parameters(self, names: list[str]) -> list[Parameter]:
-        """Return several parameters; raises as :meth:`get_parameter`."""
         if not all(isinstance(name, str) for name in names):
             raise TypeError("All names must be instances of type str")
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """Return a parameter, or the alternative if it has no value (None: one that is not set)."""
         parameter = self._parameters.get(name)
         if parameter is not None and parameter.type_ is not Parameter.Type.NOT_SET:
             return parameter
@@ -78,7 +69,6 @@ class DeclaredParameters(Mapping[str, Parameter]):
         )
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """Return the parameters below ``prefix``, by the rest of their names."""
         start = f"{prefix}{PARAMETER_SEPARATOR_STRING}" if prefix else ""
         # Services of this node may declare or remove parameters in other threads: hence the copy.
         return {
@@ -88,29 +78,16 @@ class DeclaredParameters(Mapping[str, Parameter]):
         }
 
     def get_parameter_type(self, name: str) -> int:
-        """Return the number of a parameter's type.
-
-        Raises:
-            ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
-                allowed.
-        """
         if name not in self._parameters and not self._allow_undeclared:
             raise ParameterNotDeclaredException(name).with_hint(self._hint(name))
         return int(self.get_parameter_or(name).type_.value)
 
     def get_parameter_types(self, names: list[str]) -> list[int]:
-        """Return the types of several parameters; raises as :meth:`get_parameter_type`."""
         if not all(isinstance(name, str) for name in names):
             raise TypeError("All names must be instances of type str")
         return [self.get_parameter_type(name) for name in names]
 
     def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
-        """Return the names of parameters, and the prefixes that they have.
-
-        Args:
-            prefixes: Names or beginnings of names up to a dot; all parameters if empty.
-            depth: How many levels below a prefix; 0 means all.
-        """
         from rcl_interfaces.msg import ListParametersResult
 
         if not isinstance(prefixes, list):
@@ -125,12 +102,6 @@ class DeclaredParameters(Mapping[str, Parameter]):
         return ListParametersResult(names=names, prefixes=_prefixes_of(names))
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """Return a parameter's descriptor with its present type, empty if it is undeclared.
-
-        Raises:
-            ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
-                allowed.
-        """
         descriptor = self._descriptors.get(name)
         if descriptor is None:
             if not self._allow_undeclared:
@@ -142,7 +113,6 @@ class DeclaredParameters(Mapping[str, Parameter]):
         return descriptor
 
     def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
-        """Return several descriptors; raises as :meth:`describe_parameter`."""
         return [self.describe_parameter(name) for name in names]
 
     def _hint(self, name: str) -> str:

@@ -52,7 +52,8 @@ class NodeParameters(DeclaredParameters):
 
     A change goes through these steps, in ROS 2's order: callbacks before it, which may change the
     list; type, range and read-only; the deciding callbacks, newest first; the store; an event;
-    callbacks after it. No lock is held over a callback.
+    callbacks after it. No lock is held over a callback. :class:`rclpy.node.Node` describes the
+    methods that it has as well.
 
     Args:
         node_fqn: Fully qualified name of the node, for events.
@@ -99,18 +100,6 @@ class NodeParameters(DeclaredParameters):
         descriptor: ParameterDescriptor | None = None,
         ignore_override: bool = False,
     ) -> Parameter:
-        """Declare one parameter; see :meth:`declare_parameters` for what is raised.
-
-        Args:
-            name: Its name.
-            value: Default value, which fixes the type, or a ``Parameter.Type`` to fix the type
-                alone.
-            descriptor: Range, description, read-only, dynamic typing.
-            ignore_override: Whether to use ``value`` even if the command line says otherwise.
-
-        Returns:
-            The parameter with the value that it got.
-        """
         # ROS 2 warns of a name alone, but not of a name with an empty descriptor.
         declaration = (
             (name,)
@@ -122,25 +111,6 @@ class NodeParameters(DeclaredParameters):
     def declare_parameters(
         self, namespace: str, parameters: Sequence[tuple[Any, ...]], ignore_override: bool = False
     ) -> list[Parameter]:
-        """Declare several parameters, each as ``(name[, value or type[, descriptor]])``.
-
-        Args:
-            namespace: Put before each name, with a dot between; nothing if empty.
-            parameters: The declarations.
-            ignore_override: Whether to use the given values even if the command line says
-                otherwise.
-
-        Returns:
-            The parameters with the values that they got.
-
-        Raises:
-            ParameterAlreadyDeclaredException: A parameter is already declared; then no parameter is
-                declared.
-            InvalidParameterException: A name is empty.
-            InvalidParameterTypeException: The command line gives a value of another type.
-            InvalidParameterValueException: A value is out of range or was rejected by a callback.
-            TypeError, ValueError: A declaration is malformed.
-        """
         declared: dict[str, tuple[Parameter, ParameterDescriptor]] = {}
         for index, declaration in enumerate(parameters):
             name, value, descriptor = read_declaration(index, declaration)
@@ -181,12 +151,6 @@ class NodeParameters(DeclaredParameters):
             self.declare_parameter(name, value, descriptor, ignore_override=True)
 
     def undeclare_parameter(self, name: str) -> None:
-        """Forget a parameter.
-
-        Raises:
-            ParameterNotDeclaredException: The parameter is not declared.
-            ParameterImmutableException: The parameter is read-only.
-        """
         if name not in self._parameters:
             raise ParameterNotDeclaredException(name)
         if self._descriptors[name].read_only:
@@ -197,24 +161,9 @@ class NodeParameters(DeclaredParameters):
     # -- setting
 
     def set_parameters(self, parameter_list: list[Parameter]) -> list[SetParametersResult]:
-        """Set parameters one after the other.
-
-        Returns:
-            A result for each; a failure does not keep the others from being set.
-
-        Raises:
-            ParameterNotDeclaredException: A parameter is not declared, and undeclared parameters
-                are not allowed; the preceding parameters are set.
-        """
         return [self.set_parameters_atomically([parameter]) for parameter in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
-        """Set all of the parameters or none.
-
-        Raises:
-            ParameterNotDeclaredException: A parameter is not declared, and undeclared parameters
-                are not allowed.
-        """
         from rcl_interfaces.msg import SetParametersResult
 
         self._check_declared(parameter_list)
@@ -300,22 +249,6 @@ class NodeParameters(DeclaredParameters):
         descriptor: ParameterDescriptor,
         alternative_value: ParameterValue | None = None,
     ) -> rcl_interfaces.msg.ParameterValue:
-        """Give a parameter another descriptor.
-
-        Args:
-            name: The parameter.
-            descriptor: The new one.
-            alternative_value: Set when the present value does not agree with the new descriptor.
-
-        Returns:
-            The value that the parameter has now.
-
-        Raises:
-            ParameterNotDeclaredException: The name is not declared, and undeclared ones are not
-                allowed.
-            ParameterImmutableException: The parameter is read-only.
-            InvalidParameterValueException: Neither value agrees with the descriptor.
-        """
         if name not in self._parameters:
             # Raises, unless undeclared parameters are allowed.
             return self.get_parameter(name).get_parameter_value()

@@ -96,10 +96,6 @@ def test_a_goal_with_feedback_and_result(serve, client, finish, spin_until):
     assert repr(handle).startswith("ClientGoalHandle <id=")
 
 
-def test_wait_for_server_without_a_server(client):
-    assert not client.wait_for_server(timeout_sec=-0.5)
-
-
 def test_wait_for_server_raises_on_an_invalid_context(client, context):
     context.shutdown()
     text = "^Failed to check if action server is available: rcl node's context is invalid$"
@@ -107,21 +103,6 @@ def test_wait_for_server_raises_on_an_invalid_context(client, context):
         client.wait_for_server(timeout_sec=1.0)
     with pytest.raises(RCLError, match=text):
         client.server_is_ready()
-
-
-def test_an_async_execution(serve, client, finish):
-    gate = Future()
-
-    async def execute(goal_handle):
-        result = Fibonacci.Result(sequence=[await gate])
-        goal_handle.succeed()
-        return result
-
-    serve(execute)
-    handle = send(client, finish)
-    answer = handle.get_result_async()
-    gate.set_result(7)
-    assert list(finish(answer).result.sequence) == [7]
 
 
 def test_a_given_goal_id_and_a_repeated_one(serve, client, finish):
@@ -184,15 +165,17 @@ def test_async_decisions(serve, client, finish):
     gate = Future()
 
     async def execute(goal_handle):
-        await gate
+        result = Fibonacci.Result(sequence=[await gate])
         goal_handle.canceled()
-        return Fibonacci.Result()
+        return result
 
     serve(execute, goal_callback=accept, cancel_callback=agree)
     handle = send(client, finish)
     assert len(finish(handle.cancel_goal_async()).goals_canceling) == 1
-    gate.set_result(None)
-    assert finish(handle.get_result_async()).status == GoalStatus.STATUS_CANCELED
+    answer = handle.get_result_async()
+    gate.set_result(7)
+    response = finish(answer)
+    assert (response.status, list(response.result.sequence)) == (GoalStatus.STATUS_CANCELED, [7])
 
 
 def test_without_an_outcome_a_goal_is_aborted_with_a_warning(serve, client, finish, capfd):
@@ -431,6 +414,7 @@ def test_wrong_types(serve, client, node):
 def test_coming_and_going(serve, client, node, context):
     assert not client.server_is_ready()
     assert not client.wait_for_server(timeout_sec=0.05)
+    assert not client.wait_for_server(timeout_sec=-0.5)
     server = serve(count)
     assert client.wait_for_server(timeout_sec=60)
     assert set(node.waitables) == {client, server}
@@ -652,6 +636,8 @@ def test_events_of_an_action(node, client, server, events, context, finish, spin
         assert sorted(kinds) == [0, 1, 2, 3]
         contents = [len(kinds[kind].request) + len(kinds[kind].response) for kind in range(4)]
         assert contents == [0, 1, 1, 0]  # the client tells only that something happened
+        assert len({bytes(event.info.client_gid) for event in kinds.values()}) == 1
+        assert len({event.info.sequence_number for event in kinds.values()}) == 1
     assert by_kind["send_goal"][1].request[0].goal.order == 7
     assert by_kind["send_goal"][2].response[0].accepted is True
     assert by_kind["cancel_goal"][1].request[0].goal_info.goal_id == goal.goal_id

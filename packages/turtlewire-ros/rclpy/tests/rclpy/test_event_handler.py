@@ -51,17 +51,21 @@ def test_matches(node, spin_until):
 
 
 @BOTH
-def test_unmatched_endpoints_are_reported(node, spin_until):
+def test_unmatched_endpoints_are_reported(node, executor, spin_until):
     offered, requested = [], []
-    node.create_publisher(
+    publisher = node.create_publisher(
         String,
         "a",
         BEST_EFFORT,
         event_callbacks=PublisherEventCallbacks(incompatible_qos=offered.append),
     )
     callbacks = SubscriptionEventCallbacks(incompatible_qos=requested.append)
-    node.create_subscription(String, "a", print, RELIABLE, event_callbacks=callbacks)
+    got = []
+    node.create_subscription(String, "a", got.append, RELIABLE, event_callbacks=callbacks)
     spin_until(lambda: offered and requested)
+    publisher.publish(String())
+    executor.spin_once(timeout_sec=0)
+    assert got == []
     assert (
         offered
         == requested

@@ -12,7 +12,6 @@ from tests.programs import run_python
 
 import rclpy.logging
 from rclpy.clock import Clock, ClockType
-from rclpy.context import Context
 from rclpy.impl import log_levels, log_output, rcutils_logger
 from rclpy.impl.arguments import Arguments
 from rclpy.impl.log_output import LineFormat
@@ -197,10 +196,6 @@ def test_throttle(logger, capfd):
         clock.now_ns = int(seconds * 1e9)
         logger.info(str(seconds), throttle_duration_sec=1, throttle_time_source_type=clock)
     assert messages(capfd) == ["1.0", "2.0", "0.1"]
-
-
-def test_a_suppressed_line_tells(logger):
-    assert [logger.info("x", once=True) for _ in range(2)] == [True, False]
 
 
 @pytest.mark.parametrize(
@@ -462,16 +457,3 @@ def test_a_closed_stream_does_not_end_the_program():
     )
     run = run_python(program, timeout=300)
     assert run.stdout == "True\n"
-
-
-def test_the_first_context_decides(monkeypatch, capfd):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
-
-    def with_level(level):
-        return rclpy.init(context=Context(), args=["--ros-args", "--log-level", level])
-
-    with with_level("error"), with_level("debug"):
-        rclpy.logging.get_logger("x").warning("hidden")
-    with with_level("info"):
-        rclpy.logging.get_logger("x").warning("shown")
-    assert messages(capfd) == ["shown"]

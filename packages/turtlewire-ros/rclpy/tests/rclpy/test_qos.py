@@ -35,17 +35,6 @@ def profile(**changes):
     return QoSProfile(**{"depth": 10, **changes})
 
 
-def test_an_int_depth_alone_is_the_default_profile():
-    made = QoSProfile(depth=10)
-    assert made == QoSPresetProfiles.DEFAULT.value
-    assert (made.history, made.reliability, made.durability) == (
-        HistoryPolicy.KEEP_LAST,
-        R,
-        DurabilityPolicy.VOLATILE,
-    )
-    assert made.to_wire() == wire_qos.QoS()
-
-
 @pytest.mark.parametrize(
     ("preset", "history", "depth", "reliability", "durability"),
     [
@@ -86,6 +75,7 @@ def test_short_keys():
 
 
 def test_durations_and_numbers_reach_the_wire():
+    assert QoSProfile(depth=10).to_wire() == wire_qos.QoS()
     made = profile(
         deadline=Duration(seconds=1),
         lifespan=Duration(seconds=2),

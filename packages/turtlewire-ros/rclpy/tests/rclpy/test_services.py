@@ -12,8 +12,7 @@ from rclpy.context import Context
 from rclpy.exceptions import InvalidServiceNameException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, qos_profile_services_default, qos_profile_system_default
-from rclpy.service_introspection import ServiceIntrospectionState
+from rclpy.qos import QoSProfile, qos_profile_services_default
 from std_msgs.msg import Int32
 from std_srvs.srv import SetBool
 from turtlewire.wire.base import RequestId
@@ -203,47 +202,6 @@ def test_a_malformed_request_is_told_once_and_the_service_lives(node, executor, 
         client._wire.send_request(b"\x00\x01\x00\x00\x01")
     assert ask(executor, client, 1, 2) == 3
     assert capfd.readouterr().err.count("Ignoring a malformed request to service '/add'") == 1
-
-
-def test_introspection(node, executor, context, spin_until):
-    service = node.create_service(AddTwoInts, "add", add)
-    client = node.create_client(AddTwoInts, "add")
-    events = []
-    subscription = node.create_subscription(
-        AddTwoInts.Event, "add/_service_event", events.append, 10
-    )
-    clock = node.get_clock()
-    client.configure_introspection(
-        clock, qos_profile_system_default, ServiceIntrospectionState.METADATA
-    )
-    service.configure_introspection(
-        clock, qos_profile_system_default, ServiceIntrospectionState.CONTENTS
-    )
-    assert context.wait_for_graph(lambda: subscription.get_publisher_count() == 2, 60_000_000_000)
-    assert client.wait_for_service(timeout_sec=60)
-    assert context.wait_for_graph(
-        lambda: all(each._events.wire.subscription_count() for each in (client, service)),
-        10_000_000_000,
-    )
-    ask(executor, client, 5, 6)
-    spin_until(lambda: len(events) == 4)
-    kinds = {event.info.event_type: event for event in events}
-    assert sorted(kinds) == [0, 1, 2, 3]
-    assert [len(kinds[kind].request) + len(kinds[kind].response) for kind in range(4)] == [
-        0,
-        1,
-        1,
-        0,
-    ]
-    assert kinds[1].request[0].a == 5
-    assert kinds[2].response[0].sum == 11
-    assert len({bytes(event.info.client_gid) for event in events}) == 1
-    assert len({event.info.sequence_number for event in events}) == 1
-    service.configure_introspection(
-        clock, qos_profile_system_default, ServiceIntrospectionState.OFF
-    )
-    client.configure_introspection(clock, qos_profile_system_default, ServiceIntrospectionState.OFF)
-    assert context.wait_for_graph(lambda: subscription.get_publisher_count() == 0, 60_000_000_000)
 
 
 def test_a_client_in_another_context(context, node, executor):

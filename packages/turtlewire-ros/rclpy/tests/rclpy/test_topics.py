@@ -16,8 +16,6 @@ from rclpy.qos import (
     HistoryPolicy,
     LivelinessPolicy,
     QoSProfile,
-    ReliabilityPolicy,
-    qos_profile_sensor_data,
 )
 from rclpy.serialization import deserialize_message, serialize_message
 from rclpy.subscription import Subscription
@@ -331,27 +329,6 @@ def test_destruction(node):
             use()
     assert publisher not in list(node.publishers)
     assert subscription not in list(node.subscriptions)
-
-
-def test_incompatible_ends_do_not_match_and_both_are_warned(context, node, executor, capfd):
-    got = []
-    node.create_subscription(
-        Int32, "number", got.append, QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
-    )
-    publisher = node.create_publisher(Int32, "number", qos_profile_sensor_data)
-    deadline = time.monotonic() + 60
-    seen = ""
-    while "No messages will be sent" not in seen or "No messages will be received" not in seen:
-        assert time.monotonic() < deadline
-        executor.spin_once(timeout_sec=0.1)
-        seen += capfd.readouterr().err
-    publisher.publish(Int32())
-    executor.spin_once(timeout_sec=0)
-    assert got == []
-    assert (
-        "[tested]: New publisher discovered on topic 'number', offering incompatible QoS." in seen
-    )
-    assert "Last incompatible policy: RELIABILITY" in seen
 
 
 def test_a_malformed_message_is_told_once_and_later_ones_arrive(context, node, spin_until, capfd):
