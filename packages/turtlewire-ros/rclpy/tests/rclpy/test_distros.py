@@ -21,22 +21,137 @@ def said(distro, program):
     return lines_in(distro, OUTCOME + START + program)
 
 
-@pytest.mark.parametrize(
-    ("distro", "expected"),
-    [
-        ("jazzy", "False []"),
+ACTION = """
+server = ActionServer(node, Fibonacci, "fibonacci", execute)
+client = ActionClient(node, Fibonacci, "fibonacci")
+client.wait_for_server()
+heard = []
+hear = lambda message: heard.append(list(message.feedback.sequence))
+sending = client.send_goal_async(Fibonacci.Goal(), hear)
+rclpy.spin_until_future_complete(node, sending)
+result = sending.result().get_result_async()
+rclpy.spin_until_future_complete(node, result)
+"""
+
+FEEDBACK = """
+def execute(goal):
+    goal.publish_feedback(Fibonacci.Feedback(sequence=[1]))
+    goal.succeed()
+    goal.publish_feedback(Fibonacci.Feedback(sequence=[2]))
+    return Fibonacci.Result()
+""" + ACTION.replace("result = sending", "rclpy.spin_once(node, timeout_sec=0.5); result = sending")
+SHUTDOWN = """
+other = rclpy.context.Context()
+other.init(args=[])
+kept = rclpy.create_node("kept", context=other)
+executor = SingleThreadedExecutor()
+executor.add_node(node)
+rclpy.shutdown()
+print(outcome(node.get_name))
+is_alive = outcome(node.get_name).startswith("node")
+print(kept.get_name(), executor.get_nodes() == ([node] if is_alive else []))
+node.destroy_node()
+"""
+CLOCKS = """
+from rclpy.clock import Clock, ClockType, ROSClock
+clock = Clock(clock_type=ClockType.ROS_TIME)
+print(type(clock).__name__, clock, clock.ros_time_is_active)
+print(outcome(ROSClock))
+print(type(node.get_clock()).__name__)
+"""
+SHAPE = "callback should be either be callable with one argument(to get only the message) or two"
+
+#: By subject: a program, and the lines that it prints in each distribution.
+CHANGES = {
+    "warn() of a logger": (
+        "print(outcome(lambda: node.get_logger().warn('text')))",
+        {
+            "jazzy": "False []",
+            "kilted": "False ['DeprecationWarning: Deprecated in favor of "
+            ":py:classmethod:RcutilsLogger.warning:.']",
+            "lyrical": "AttributeError: 'RcutilsLogger' object has no attribute 'warn'",
+        },
+    ),
+    "a call that takes too long": (
         (
-            "kilted",
-            (
-                "False ['DeprecationWarning: Deprecated in favor of "
-                ":py:classmethod:RcutilsLogger.warning:.']"
-            ),
+            "client = node.create_client(AddTwoInts, 'add')\n"
+            "print(outcome(lambda: client.call(AddTwoInts.Request(), timeout_sec=0.01)))"
         ),
-        ("lyrical", "AttributeError: 'RcutilsLogger' object has no attribute 'warn'"),
-    ],
+        {"jazzy": "None []", "kilted": "TimeoutError: ", "lyrical": "TimeoutError: "},
+    ),
+    "a node after the shutdown of its context": (
+        SHUTDOWN,
+        {
+            "jazzy": "node []\nkept True",
+            "kilted": "InvalidHandle: cannot use Destroyable because destruction was requested\n"
+            "kept True",
+        },
+    ),
+    "a profile without history and depth": (
+        "print(outcome(QoSProfile))",
+        {
+            "jazzy": "InvalidQoSProfileException: "
+            "('Invalid QoSProfile', 'History and/or depth settings are required.')",
+            "kilted": "InvalidQoSProfileException: History and/or depth settings are required.",
+        },
+    ),
+    "how long the results of actions are kept": (
+        (
+            "server = ActionServer(node, Fibonacci, 'fibonacci', lambda goal: Fibonacci.Result())\n"
+            "print(server._result_timeout_ns / 1e9)"
+        ),
+        {"jazzy": "900.0", "kilted": "10.0", "lyrical": "10.0"},
+    ),
+    "feedback after the end of a goal": (
+        FEEDBACK + "print(heard)",
+        {"jazzy": "[[1], [2]]", "kilted": "[[1], [2]]", "lyrical": "[[1]]"},
+    ),
+    "a goal of another type": (
+        (
+            "client = ActionClient(node, Fibonacci, 'fibonacci')\n"
+            "print(outcome(lambda: client.send_goal_async(Fibonacci.Result())))"
+        ),
+        {
+            "jazzy": "TypeError: ",
+            "kilted": "TypeError: Expected goal type (<class "
+            "'example_interfaces.action._fibonacci.Metaclass_Fibonacci_Goal'>) but received "
+            "(<class 'example_interfaces.action._fibonacci.Fibonacci_Result'>)",
+        },
+    ),
+    "the last preset": (
+        "from rclpy.qos import QoSPresetProfiles; print(QoSPresetProfiles.short_keys()[-1])",
+        {"jazzy": "action_status_default", "kilted": "rosout_default"},
+    ),
+    "clocks of ROS time": (
+        CLOCKS,
+        {
+            "kilted": "ROSClock Clock(clock_type=ROS_TIME) False\n"
+            "Clock(clock_type=ROS_TIME) []\nROSClock",
+            "lyrical": "Clock Clock(clock_type=ROS_TIME) False\n"
+            "ROSClock(clock_type=ROS_TIME) ['DeprecationWarning: Use "
+            "Clock(clock_type=ClockType.ROS_TIME) instead']\nClock",
+        },
+    ),
+    "a callback of a wrong shape": (
+        (
+            "from std_msgs.msg import String\n"
+            "print(outcome(lambda: node.create_subscription(String, 't', lambda: None, 1)))"
+        ),
+        {
+            "kilted": f"RuntimeError: Subscription.__init__(): {SHAPE} "
+            "(to get message and message info)",
+            "lyrical": f"RuntimeError: Subscription {SHAPE} (to get message and message info)",
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize(
+    ("subject", "distro"), [(each, distro) for each in CHANGES for distro in CHANGES[each][1]]
 )
-def test_warn_of_a_logger(distro, expected):
-    assert said(distro, "print(outcome(lambda: node.get_logger().warn('text')))") == [expected]
+def test_changes(subject, distro):
+    program, expected = CHANGES[subject]
+    assert said(distro, program) == expected[distro].split("\n")
 
 
 @pytest.mark.parametrize(
@@ -53,89 +168,6 @@ def test_a_declaration_of_a_name_alone(distro, kind):
         )
 
 
-@pytest.mark.parametrize(
-    ("distro", "expected"),
-    [("jazzy", "None []"), ("kilted", "TimeoutError: "), ("lyrical", "TimeoutError: ")],
-)
-def test_a_call_that_takes_too_long(distro, expected):
-    program = """
-client = node.create_client(AddTwoInts, "add")
-print(outcome(lambda: client.call(AddTwoInts.Request(), timeout_sec=0.01)))
-"""
-    assert said(distro, program) == [expected]
-
-
-@pytest.mark.parametrize(
-    ("distro", "expected"),
-    [
-        ("jazzy", "node []"),
-        ("kilted", "InvalidHandle: cannot use Destroyable because destruction was requested"),
-    ],
-)
-def test_a_node_after_the_shutdown_of_its_context(distro, expected):
-    program = """
-other = rclpy.context.Context()
-other.init(args=[])
-kept = rclpy.create_node("kept", context=other)
-executor = SingleThreadedExecutor()
-executor.add_node(node)
-rclpy.shutdown()
-print(outcome(node.get_name))
-is_alive = outcome(node.get_name).startswith("node")
-print(kept.get_name(), executor.get_nodes() == ([node] if is_alive else []))
-node.destroy_node()
-"""
-    assert said(distro, program) == [expected, "kept True"]
-
-
-@pytest.mark.parametrize(
-    ("distro", "text"),
-    [
-        ("jazzy", "('Invalid QoSProfile', 'History and/or depth settings are required.')"),
-        ("kilted", "History and/or depth settings are required."),
-    ],
-)
-def test_a_profile_without_history_and_depth(distro, text):
-    assert said(distro, "print(outcome(QoSProfile))") == [f"InvalidQoSProfileException: {text}"]
-
-
-@pytest.mark.parametrize(("distro", "seconds"), [("jazzy", 900), ("kilted", 10), ("lyrical", 10)])
-def test_results_of_actions_are_kept_for(distro, seconds):
-    program = """
-server = ActionServer(node, Fibonacci, "fibonacci", lambda goal: Fibonacci.Result())
-print(server._result_timeout_ns / 1e9)
-"""
-    assert said(distro, program) == [f"{seconds}.0"]
-
-
-ACTION = """
-server = ActionServer(node, Fibonacci, "fibonacci", execute)
-client = ActionClient(node, Fibonacci, "fibonacci")
-client.wait_for_server()
-heard = []
-hear = lambda message: heard.append(list(message.feedback.sequence))
-sending = client.send_goal_async(Fibonacci.Goal(), hear)
-rclpy.spin_until_future_complete(node, sending)
-result = sending.result().get_result_async()
-rclpy.spin_until_future_complete(node, result)
-"""
-
-
-@pytest.mark.parametrize(
-    ("distro", "feedback"),
-    [("jazzy", "[[1], [2]]"), ("kilted", "[[1], [2]]"), ("lyrical", "[[1]]")],
-)
-def test_feedback_after_the_end_of_a_goal(distro, feedback):
-    program = """
-def execute(goal):
-    goal.publish_feedback(Fibonacci.Feedback(sequence=[1]))
-    goal.succeed()
-    goal.publish_feedback(Fibonacci.Feedback(sequence=[2]))
-    return Fibonacci.Result()
-""" + ACTION.replace("result = sending", "rclpy.spin_once(node, timeout_sec=0.5); result = sending")
-    assert said(distro, program + "print(heard)") == [feedback]
-
-
 def test_a_goal_that_the_program_ends_by_its_handle():
     program = """
 def accepted(goal):
@@ -150,28 +182,6 @@ server = ActionServer(node, Fibonacci, "fibonacci", handle_accepted_callback=acc
 """ + ACTION.replace('server = ActionServer(node, Fibonacci, "fibonacci", execute)', "")
     program += "print(result.result().status, list(result.result().result.sequence))"
     assert said("jazzy", program) == ["1", "2", "done", "4 [7]"]
-
-
-@pytest.mark.parametrize(
-    ("distro", "text"),
-    [
-        ("jazzy", "TypeError: "),
-        (
-            "kilted",
-            (
-                "TypeError: Expected goal type (<class "
-                "'example_interfaces.action._fibonacci.Metaclass_Fibonacci_Goal'>) but received "
-                "(<class 'example_interfaces.action._fibonacci.Fibonacci_Result'>)"
-            ),
-        ),
-    ],
-)
-def test_a_goal_of_another_type(distro, text):
-    program = """
-client = ActionClient(node, Fibonacci, "fibonacci")
-print(outcome(lambda: client.send_goal_async(Fibonacci.Result())))
-"""
-    assert said(distro, program) == [text]
 
 
 @pytest.mark.parametrize("module", ["qos_event", "topic_endpoint_info"])
@@ -264,12 +274,6 @@ print(info.qos_profile.depth, info.qos_profile.durability.name)
     assert said("jazzy", program) == [f"{depth} {durability}"]
 
 
-def test_rosout_is_a_preset_since_kilted():
-    program = "from rclpy.qos import QoSPresetProfiles; print(QoSPresetProfiles.short_keys()[-1])"
-    assert said("jazzy", program) == ["action_status_default"]
-    assert said("kilted", program) == ["rosout_default"]
-
-
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
 @pytest.mark.parametrize(
     ("distro", "type_hash"),
@@ -288,59 +292,6 @@ for infos in (node.get_servers_info_by_service("add"), node.get_clients_info_by_
 """
     choice = f"import os; os.environ['RMW_IMPLEMENTATION'] = '{middleware}'"
     assert lines_in(distro, choice + START + program) == [type_hash] * 2
-
-
-CLOCKS = """
-from rclpy.clock import Clock, ClockType, ROSClock
-clock = Clock(clock_type=ClockType.ROS_TIME)
-print(type(clock).__name__, clock, clock.ros_time_is_active)
-print(outcome(ROSClock))
-print(type(node.get_clock()).__name__)
-"""
-
-
-@pytest.mark.parametrize(
-    ("distro", "expected"),
-    [
-        (
-            "kilted",
-            [
-                "ROSClock Clock(clock_type=ROS_TIME) False",
-                "Clock(clock_type=ROS_TIME) []",
-                "ROSClock",
-            ],
-        ),
-        (
-            "lyrical",
-            [
-                "Clock Clock(clock_type=ROS_TIME) False",
-                (
-                    "ROSClock(clock_type=ROS_TIME) ['DeprecationWarning: Use "
-                    "Clock(clock_type=ClockType.ROS_TIME) instead']"
-                ),
-                "Clock",
-            ],
-        ),
-    ],
-)
-def test_clocks_of_ros_time(distro, expected):
-    assert said(distro, CLOCKS) == expected
-
-
-@pytest.mark.parametrize(
-    ("distro", "subject"), [("kilted", "Subscription.__init__():"), ("lyrical", "Subscription")]
-)
-def test_a_callback_of_a_wrong_shape(distro, subject):
-    program = """
-from std_msgs.msg import String
-print(outcome(lambda: node.create_subscription(String, "t", lambda: None, 1)))
-"""
-    assert said(distro, program) == [
-        (
-            f"RuntimeError: {subject} callback should be either be callable with one argument"
-            "(to get only the message) or two (to get message and message info)"
-        )
-    ]
 
 
 # Tags in parameter files, which choose the type of a value in Lyrical.

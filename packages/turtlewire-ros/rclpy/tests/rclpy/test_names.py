@@ -92,21 +92,6 @@ def test_the_parts_of_the_error():
 
 
 @pytest.mark.parametrize(
-    ("name", "expanded"),
-    [
-        ("a", "/ns/a"),
-        ("/a", "/a"),
-        ("~", "/ns/node"),
-        ("~/a", "/ns/node/a"),
-        ("{node}/a", "/ns/node/a"),
-        ("{ns}/a", "/ns/a"),
-    ],
-)
-def test_expansion(name, expanded):
-    assert expand_topic_name(name, "node", "/ns") == expanded
-
-
-@pytest.mark.parametrize(
     ("names", "text"),
     [
         (("a b", "node", "/ns"), "topic name is invalid"),

@@ -7,11 +7,8 @@ import pytest
 
 from example_interfaces.srv import AddTwoInts
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
-from rclpy.client import Client
-from rclpy.context import Context
 from rclpy.exceptions import InvalidServiceNameException
 from rclpy.executors import ExternalShutdownException
-from rclpy.node import Node
 from rclpy.qos import QoSProfile, qos_profile_services_default
 from std_msgs.msg import Int32
 from std_srvs.srv import SetBool
@@ -89,14 +86,6 @@ def test_wait_for_service_raises_on_an_invalid_context(node, context):
         client.wait_for_service(timeout_sec=1.0)
     with pytest.raises(RCLError, match=text):
         client.service_is_ready()
-
-
-def test_a_service_that_goes_is_not_ready(node, context):
-    service = node.create_service(AddTwoInts, "add", add)
-    client = node.create_client(AddTwoInts, "add")
-    assert client.wait_for_service(timeout_sec=60)
-    assert node.destroy_service(service)
-    assert context.wait_for_graph(lambda: not client.service_is_ready(), 60_000_000_000)
 
 
 def test_done_callbacks_of_a_response_run_on_the_executor(node, executor, spin_until):
@@ -202,26 +191,6 @@ def test_a_malformed_request_is_told_once_and_the_service_lives(node, executor, 
         client._wire.send_request(b"\x00\x01\x00\x00\x01")
     assert ask(executor, client, 1, 2) == 3
     assert capfd.readouterr().err.count("Ignoring a malformed request to service '/add'") == 1
-
-
-def test_a_client_in_another_context(context, node, executor):
-    """Two participants: discovery, matching and the reply reach across."""
-    node.create_service(AddTwoInts, "add", add)
-    with Context() as other:
-        asker = Node("asker", context=other)
-        client = asker.create_client(AddTwoInts, "add")
-        assert isinstance(client, Client)
-        assert client.wait_for_service(timeout_sec=60)
-        spinning = threading.Thread(target=executor.spin)
-        spinning.start()
-        from rclpy.executors import SingleThreadedExecutor
-
-        with SingleThreadedExecutor(context=other) as mine:
-            mine.add_node(asker)
-            assert ask(mine, client, 20, 22) == 42
-        executor.shutdown()
-        spinning.join(60)
-        asker.destroy_node()
 
 
 def test_a_pending_request_has_its_future(node, executor):

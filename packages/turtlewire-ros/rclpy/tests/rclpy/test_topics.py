@@ -6,7 +6,6 @@ import pytest
 
 from geometry_msgs.msg import Twist, Vector3
 from rclpy._rclpy_pybind11 import InvalidHandle
-from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import SingleThreadedExecutor
@@ -168,29 +167,6 @@ def test_endpoint_with_a_wrong_callback_group_is_not_announced(node, kind):
     assert counts == [0, 0, 0, 0]
 
 
-def test_a_late_joiner_gets_what_transient_local_keeps(context, node, spin_until):
-    latched = QoSProfile(depth=2, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    publisher = node.create_publisher(Int32, "map", latched)
-    for number in range(4):
-        publisher.publish(Int32(data=number))
-    got = []
-    node.create_subscription(Int32, "map", lambda message: got.append(message.data), latched)
-    spin_until(lambda: len(got) == 2)
-    assert got == [2, 3]
-
-
-def test_depth_keeps_the_newest(context, node, executor):
-    got = []
-    node.create_subscription(Int32, "number", lambda message: got.append(message.data), 3)
-    publisher = node.create_publisher(Int32, "number", 10)
-    matched(context, publisher)
-    for number in range(8):
-        publisher.publish(Int32(data=number))
-    for _ in range(5):
-        executor.spin_once(timeout_sec=0.05)
-    assert got == [5, 6, 7]
-
-
 def test_without_subscriptions_only_the_first_message_is_encoded(context, node, monkeypatch):
     encoded = []
     monkeypatch.setattr(
@@ -342,19 +318,6 @@ def test_a_malformed_message_is_told_once_and_later_ones_arrive(context, node, s
     spin_until(lambda: got)
     assert got == ["good"]
     assert capfd.readouterr().err.count("Ignoring a malformed message on topic '/chatter'") == 1
-
-
-def test_two_contexts(context, node, spin_until):
-    got = []
-    node.create_subscription(Int32, "number", lambda message: got.append(message.data), 10)
-    with Context() as other:
-        talker = Node("talker", context=other)
-        publisher = talker.create_publisher(Int32, "number", 10)
-        matched(other, publisher)
-        publisher.publish(Int32(data=9))
-        spin_until(lambda: got)
-        talker.destroy_node()
-    assert got == [9]
 
 
 def test_wait_for_all_acked(context, node):
