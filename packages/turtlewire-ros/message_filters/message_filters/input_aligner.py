@@ -9,12 +9,13 @@ from dataclasses import dataclass
 from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
-from rclpy.duration import Duration
 from rclpy.time import Time
 
 from .simple_filter import SimpleFilter
+from .stamps import nanoseconds
 
 if TYPE_CHECKING:
+    from rclpy.duration import Duration
     from rclpy.node import Node
     from rclpy.timer import Timer
 
@@ -71,7 +72,7 @@ class InputAligner:
     def __init__(
         self, timeout: Duration | float, filters: Sequence[SimpleFilter] | None = None
     ) -> None:
-        self._timeout_ns = _nanoseconds(timeout)
+        self._timeout_ns = nanoseconds(timeout)
         self._name = ""
         self._lock = threading.Lock()
         self._inputs: dict[int, _Input] = {}
@@ -129,7 +130,7 @@ class InputAligner:
         Raises:
             IndexError: The index is negative.
         """
-        self._input(index).period_ns = _nanoseconds(period)
+        self._input(index).period_ns = nanoseconds(period)
 
     def setupDispatchTimer(  # noqa: N802 -- ROS 2's name
         self, node: Node, update_rate: Duration | float
@@ -143,7 +144,7 @@ class InputAligner:
         Raises:
             ValueError: The time is not above 0.
         """
-        period_s = _nanoseconds(update_rate) / 1e9
+        period_s = nanoseconds(update_rate) / 1e9
         if period_s <= 0.0:
             raise ValueError(
                 "update_rate is the time between two calls, in seconds or as a Duration; it must "
@@ -218,7 +219,3 @@ class InputAligner:
             raise IndexError(f"inputs are counted from 0; there is no input {index}")
         with self._lock:
             return self._inputs.setdefault(index, _Input())
-
-
-def _nanoseconds(time: Duration | float) -> int:
-    return (time if isinstance(time, Duration) else Duration(seconds=time)).nanoseconds

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
 from rclpy.time import Time
 
 if TYPE_CHECKING:
@@ -36,3 +37,8 @@ def stamp_of(message: Any, *, allow_headerless: bool, logger: RcutilsLogger) -> 
         logger.warning(_HEADERLESS, throttle_duration_sec=5.0)
         return None
     return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)
+
+
+def nanoseconds(time: Duration | float) -> int:
+    """Return a span of time, which is a Duration or in seconds, in nanoseconds."""
+    return (time if isinstance(time, Duration) else Duration(seconds=time)).nanoseconds

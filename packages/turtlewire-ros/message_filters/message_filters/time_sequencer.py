@@ -12,6 +12,7 @@ from rclpy.duration import Duration
 from rclpy.time import Time
 
 from .simple_filter import SimpleFilter
+from .stamps import nanoseconds
 
 if TYPE_CHECKING:
     from rclpy.clock import TimeJump
@@ -50,13 +51,13 @@ class TimeSequencer(SimpleFilter):
         msg_stamp_attr: str = "header.stamp",
     ) -> None:
         super().__init__()
-        period_s = _nanoseconds(update_rate) / 1e9
+        period_s = nanoseconds(update_rate) / 1e9
         if period_s <= 0.0:
             raise ValueError(
                 "update_rate is the time between two checks of the waiting messages, in seconds or "
                 f"as a Duration; it must be above 0, not {period_s:g}"
             )
-        self._delay_ns = _nanoseconds(delay)
+        self._delay_ns = nanoseconds(delay)
         self._queue_size = queue_size
         self._stamp_path = msg_stamp_attr
         self._lock = threading.Lock()
@@ -131,7 +132,3 @@ class TimeSequencer(SimpleFilter):
         with self._lock:
             self._waiting.clear()
             self._last_ns = None
-
-
-def _nanoseconds(time: Duration | float) -> int:
-    return (time if isinstance(time, Duration) else Duration(seconds=time)).nanoseconds

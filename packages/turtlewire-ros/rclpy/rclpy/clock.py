@@ -142,20 +142,6 @@ class JumpHandle:
         if clock is not None:
             clock.remove_jump_handle(self)
 
-    def before(self) -> None:
-        """Run the first callback."""
-        if self._pre_callback is not None:
-            self._pre_callback()
-
-    def after(self, jump: TimeJump) -> None:
-        """Run the second callback."""
-        if self._post_callback is not None:
-            self._post_callback(jump)
-
-    def wants(self, jump: TimeJump) -> bool:
-        """Return True if the callbacks should run for ``jump``."""
-        return self._threshold.is_crossed_by(jump)
-
     def __enter__(self) -> Self:
         return self
 
@@ -283,12 +269,14 @@ class BaseClock:
 
     def _move(self, jump: TimeJump, switch: Callable[[], None]) -> None:
         with self._lock:
-            handles = [handle for handle in self._jump_handles if handle.wants(jump)]
+            handles = [each for each in self._jump_handles if each._threshold.is_crossed_by(jump)]
         for handle in handles:
-            handle.before()
+            if handle._pre_callback is not None:
+                handle._pre_callback()
         switch()
         for handle in handles:
-            handle.after(jump)
+            if handle._post_callback is not None:
+                handle._post_callback(jump)
 
     def _require_ros_time(self, goal: str, step: str) -> None:
         if self._clock_type is not ClockType.ROS_TIME:

@@ -373,7 +373,9 @@ class Node(BaseNode):
         Raises:
             InvalidServiceNameException: The name breaks the rules.
         """
-        return self._rclpy_endpoints.create_client(srv_type, srv_name, qos_profile, callback_group)
+        return self._rclpy_endpoints.keep(
+            self._rclpy_endpoints.make_client(srv_type, srv_name, qos_profile, callback_group)
+        )
 
     def create_service(
         self,
@@ -397,8 +399,10 @@ class Node(BaseNode):
         Raises:
             InvalidServiceNameException: The name breaks the rules.
         """
-        return self._rclpy_endpoints.create_service(
-            srv_type, srv_name, callback, qos_profile, callback_group
+        return self._rclpy_endpoints.keep(
+            self._rclpy_endpoints.make_service(
+                srv_type, srv_name, callback, qos_profile, callback_group
+            )
         )
 
     def create_timer(

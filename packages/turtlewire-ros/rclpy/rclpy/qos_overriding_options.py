@@ -79,22 +79,6 @@ def __getattr__(name: str) -> Any:
     return SetParametersResult
 
 
-def overridden_profile(
-    entity_type: str,
-    topic_name: str,
-    qos: QoSProfile,
-    options: QoSOverridingOptions,
-    parameters: NodeParameters,
-) -> QoSProfile:
-    """Return a copy of the profile with what parameters say, where ``options`` lets them."""
-    import copy
-
-    # Presets such as `qos_profile_sensor_data` are shared.
-    qos = copy.copy(qos)
-    declare_qos_parameters(entity_type, parameters, topic_name, qos, options)
-    return qos
-
-
 def declare_qos_parameters(
     entity_type: str,
     node: NodeParameters,

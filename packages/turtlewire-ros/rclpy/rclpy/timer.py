@@ -11,17 +11,47 @@ from turtlewire.distro import LYRICAL, since
 from turtlewire.wake_up import WakeUp
 
 from ._execution.entity import ClosingEntity, EntityHost, Work
-from ._execution.timer_info import TimerInfo, parameter_for_info
 from .clock_type import ClockType
 from .exceptions import ROSInterruptException
 from .impl.hints import with_hint
+from .time import Time
 
 if TYPE_CHECKING:
     from .callback_groups import CallbackGroup
     from .clock import BaseClock, TimeJump
     from .context import Context
 
-__all__ = ["BaseTimer", "Rate", "Timer", "TimerInfo"]
+
+class TimerInfo:
+    """The times of a call of a timer: when it was due, and when it was made.
+
+    A callback of a timer gets one for the parameter that is annotated with this class.
+
+    Args:
+        expected_call_time: Time at which the call was due, in nanoseconds.
+        actual_call_time: Time at which it was made, in nanoseconds.
+        clock_type: The clock of both.
+    """
+
+    def __init__(
+        self,
+        *,
+        expected_call_time: int = 0,
+        actual_call_time: int = 0,
+        clock_type: ClockType = ClockType.SYSTEM_TIME,
+    ) -> None:
+        self._expected_call_time = Time(nanoseconds=expected_call_time, clock_type=clock_type)
+        self._actual_call_time = Time(nanoseconds=actual_call_time, clock_type=clock_type)
+
+    @property
+    def expected_call_time(self) -> Time:
+        """Time at which the call was due."""
+        return self._expected_call_time
+
+    @property
+    def actual_call_time(self) -> Time:
+        """Time at which the call was made."""
+        return self._actual_call_time
 
 
 class BaseTimer(ClosingEntity):
@@ -161,7 +191,7 @@ class BaseTimer(ClosingEntity):
             return _missing_callback, ()
         if callback is not self._inspected_callback:
             self._inspected_callback = callback
-            self._info_parameter = parameter_for_info(callback)
+            self._info_parameter = _parameter_for_info(callback)
         if not self._info_parameter:
             return callback, ()
         return partial(callback, **{self._info_parameter: self._info(due_ns)}), ()
@@ -278,6 +308,18 @@ class Timer(BaseTimer):
                 autostart=autostart,
                 callback_group=callback_group,
             )
+
+
+def _parameter_for_info(callback: Callable[..., Any]) -> str:
+    """Return the parameter that is annotated with `TimerInfo`; empty without one.
+
+    Annotations may be texts.
+    """
+    notes: dict[str, object] = getattr(callback, "__annotations__", None) or {}
+    for name, note in notes.items():
+        if name != "return" and (note is TimerInfo or str(note).endswith("TimerInfo")):
+            return name
+    return ""
 
 
 def _missing_callback() -> None:

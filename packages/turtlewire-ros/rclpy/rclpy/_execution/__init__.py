@@ -12,7 +12,6 @@ module                    contents
 `blocking`                waiting for a response; warnings of deadlocks
 `background_events`       TF messages, stored by other threads, as events
 `exceptions`              reasons for which a wait ends without work
-`timer_info`              `TimerInfo`, and the parameter of a callback that gets it
 `handle`                  stand-ins for the objects of ROS 2's C library
 `asyncio_loop`            asyncio's loop, where one runs
 ========================  =============================================================

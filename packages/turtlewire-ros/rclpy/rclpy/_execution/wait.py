@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import weakref
 from collections import deque
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from .timer_queue import TimerQueue
@@ -23,6 +24,7 @@ class _Ranked(Protocol):
 
 
 T = TypeVar("T", bound=_Ranked)
+_BY_RANK = attrgetter("_rank")
 
 
 class ExecutorWait(Generic[T]):
@@ -141,7 +143,7 @@ class ExecutorWait(Generic[T]):
             self._expecting = False
             entities += self.background
         if len(entities) > 1:
-            entities.sort(key=_rank)
+            entities.sort(key=_BY_RANK)
         return entities
 
     def _wait_for_wire(self, timeout_ns: int | None) -> list[T]:
@@ -167,7 +169,3 @@ class ExecutorWait(Generic[T]):
         """Release the wait set after :meth:`end`; a thread that still waits does it instead."""
         if not self._waiting:
             self._wait_set.close()
-
-
-def _rank(entity: _Ranked) -> tuple[int, int, int]:
-    return entity._rank

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from copy import copy
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from rclpy._execution.entity import Entity
@@ -61,9 +62,11 @@ class QosOverrides(NamedTuple):
         """Return the profile with the parameters' values; ``kind`` is publisher or subscription."""
         if self.options is None:
             return profile
-        from rclpy.qos_overriding_options import overridden_profile
+        from rclpy.qos_overriding_options import declare_qos_parameters
 
-        return overridden_profile(kind, resolve_topic(), profile, self.options, self.parameters)
+        profile = copy(profile)  # presets such as `qos_profile_sensor_data` are shared
+        declare_qos_parameters(kind, self.parameters, resolve_topic(), profile, self.options)
+        return profile
 
 
 class OwnEndpoints:
@@ -205,15 +208,6 @@ class OwnEndpoints:
                 event_callbacks=event_callbacks,
             )
 
-    def create_client(
-        self,
-        srv_type: Any,
-        srv_name: str,
-        qos_profile: QoSProfile,
-        callback_group: CallbackGroup | None,
-    ) -> Client:
-        return self._own(Client, self.make_client(srv_type, srv_name, qos_profile, callback_group))
-
     def make_client(
         self,
         srv_type: Any,
@@ -231,18 +225,6 @@ class OwnEndpoints:
                 qos_profile,
                 callback_group or self.default_callback_group,
             )
-
-    def create_service(
-        self,
-        srv_type: Any,
-        srv_name: str,
-        callback: Callable[[Any, Any], Any],
-        qos_profile: QoSProfile,
-        callback_group: CallbackGroup | None,
-    ) -> Service:
-        return self._own(
-            Service, self.make_service(srv_type, srv_name, callback, qos_profile, callback_group)
-        )
 
     def make_service(
         self,
@@ -316,12 +298,12 @@ class OwnEndpoints:
             executor.release(waitable)
         self._disown(waitable)
 
-    def keep(self, resource: Any) -> None:
-        """Destroy ``resource`` together with the node.
+    def keep(self, resource: _Owned) -> _Owned:
+        """Destroy ``resource`` together with the node; return it.
 
         It calls ``_on_destroy(itself)`` when it was destroyed before.
         """
-        self._own(type(resource), resource)
+        return self._own(type(resource), resource)
 
     def before_leaving(self, call: Callable[[], None]) -> Callable[[], None]:
         """Call ``call()`` before the node leaves the graph; return a function that undoes this.

@@ -8,7 +8,7 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from rclpy._execution.asyncio_loop import loops_of_nodes, running_loop
 from rclpy._execution.handle import closed_on_error
@@ -42,7 +42,6 @@ _NOT_IN_ASYNCIO = (
     "An AsyncNode has no executor and no callback groups, and so no actions, rates, guard "
     "conditions and waitables: use an rclpy.node.Node and an executor for these"
 )
-_AnyEntity = TypeVar("_AnyEntity", bound=AsyncEntity)
 
 
 class AsyncNode(BaseNode):
@@ -208,9 +207,7 @@ class AsyncNode(BaseNode):
         self.__check_alive("publisher")
         profile = validate_qos(qos_profile)
         impl = self._rclpy_endpoints.announce("publisher", msg_type, topic, profile)
-        publisher = AsyncPublisher(impl, msg_type, topic, profile, None)
-        self._rclpy_endpoints.keep(publisher)
-        return publisher
+        return self._rclpy_endpoints.keep(AsyncPublisher(impl, msg_type, topic, profile, None))
 
     @overload
     def create_subscription(
@@ -272,7 +269,7 @@ class AsyncNode(BaseNode):
             subscription = AsyncSubscription(
                 impl, msg_type, topic, callback, profile, None, raw, concurrent, self.__group
             )
-        return self.__own(subscription)
+        return self._rclpy_endpoints.keep(subscription)
 
     def create_service(
         self,
@@ -299,7 +296,7 @@ class AsyncNode(BaseNode):
         self.__check_alive("service")
         check_callable(callback)
         impl = self._rclpy_endpoints.announce("service", srv_type, srv_name, qos_profile)
-        return self.__own(
+        return self._rclpy_endpoints.keep(
             AsyncService(
                 impl, srv_type, srv_name, callback, qos_profile, None, concurrent, self.__group
             )
@@ -325,7 +322,7 @@ class AsyncNode(BaseNode):
         """
         self.__check_alive("client")
         impl = self._rclpy_endpoints.announce("client", srv_type, srv_name, qos_profile)
-        return self.__own(
+        return self._rclpy_endpoints.keep(
             AsyncClient(self._context, impl, srv_type, srv_name, qos_profile, None, self.__group)
         )
 
@@ -347,7 +344,7 @@ class AsyncNode(BaseNode):
         check_callable(callback)
         # Truncated, not rounded, as in ROS 2.
         period_ns = int(float(timer_period_sec) * S_TO_NS)
-        return self.__own(
+        return self._rclpy_endpoints.keep(
             AsyncTimer(
                 period_ns, self._clock, self._context, callback, autostart, None, self.__group
             )
@@ -356,10 +353,6 @@ class AsyncNode(BaseNode):
     def __check_alive(self, what: str) -> None:
         if self.__is_destroyed:
             raise RuntimeError(f"Cannot create {what} on a destroyed node")
-
-    def __own(self, entity: _AnyEntity) -> _AnyEntity:
-        self._rclpy_endpoints.keep(entity)
-        return entity
 
     # Parameters
 
