@@ -9,12 +9,13 @@ import os
 import subprocess
 import sys
 import textwrap
+import threading
 import time
 
 import pytest
 
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 
 
@@ -46,6 +47,14 @@ def executor(context, node):
 
 
 @pytest.fixture
+def pool(context, node):
+    executor = MultiThreadedExecutor(3, context=context)
+    executor.add_node(node)
+    yield executor
+    executor.shutdown()
+
+
+@pytest.fixture
 def spin_until(executor):
     """Run callbacks until something is true; fails after a minute."""
 
@@ -56,6 +65,23 @@ def spin_until(executor):
             executor.spin_once(timeout_sec=0.5)
 
     return spin
+
+
+@pytest.fixture
+def spinning(context):
+    """Spins an executor in a thread; the thread is joined at the end."""
+    started = []
+
+    def start(executor):
+        thread = threading.Thread(target=executor.spin)
+        thread.start()
+        started.append((executor, thread))
+
+    yield start
+    for executor, thread in started:
+        assert executor.shutdown(60)
+        thread.join(60)
+        assert not thread.is_alive()
 
 
 class Program:

@@ -1,7 +1,5 @@
 """Action clients and servers, and the events of their services, on both middlewares."""
 
-import threading
-
 import pytest
 
 import rclpy
@@ -22,7 +20,7 @@ from rclpy.action import (
 from rclpy.action.client import ClientGoalHandle
 from rclpy.action.server import ServerGoalHandle
 from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import qos_profile_action_status_default, qos_profile_system_default
 from rclpy.service_introspection import ServiceIntrospectionState
@@ -368,16 +366,12 @@ def test_states_are_published_also_for_late_joiners(serve, client, finish, node,
     assert seen[-1].status_list[0].goal_info.stamp == handle.stamp
 
 
-def test_blocking_calls(node, serve, client):
+def test_blocking_calls(pool, spinning, serve, client):
     serve(count)
-    with MultiThreadedExecutor(2, context=node.context) as pool:
-        pool.add_node(node)
-        spinning = threading.Thread(target=pool.spin)
-        spinning.start()
-        assert client.wait_for_server(timeout_sec=60)
-        response = client.send_goal(Fibonacci.Goal(order=3))
-        assert list(response.result.sequence) == [0, 1, 2]
-    spinning.join(60)
+    spinning(pool)
+    assert client.wait_for_server(timeout_sec=60)
+    response = client.send_goal(Fibonacci.Goal(order=3))
+    assert list(response.result.sequence) == [0, 1, 2]
 
 
 def test_a_server_that_would_do_nothing_says_so(node, capfd):
@@ -457,7 +451,6 @@ def test_a_goal_can_be_executed_between_two_spins(context):
         assert finish(handle.get_result_async()).status == GoalStatus.STATUS_SUCCEEDED
     client.destroy()
     server.destroy()
-    node.destroy_node()
 
 
 def test_the_response_comes_before_the_feedback_that_waits_with_it(serve, executor, context):
@@ -479,7 +472,6 @@ def test_the_response_comes_before_the_feedback_that_waits_with_it(serve, execut
             late.spin_once(timeout_sec=60)
     assert accepted == [True, True]
     client.destroy()
-    elsewhere.destroy_node()
 
 
 def test_the_feedback_that_waits_with_the_result_comes_before_it(serve, executor, context):
@@ -516,7 +508,6 @@ def test_the_feedback_that_waits_with_the_result_comes_before_it(serve, executor
         late.spin_until_future_complete(result, timeout_sec=60)
     assert finished == [False]
     client.destroy()
-    elsewhere.destroy_node()
 
 
 def test_no_feedback_that_was_sent_after_the_result(serve, client, finish, spin_until):

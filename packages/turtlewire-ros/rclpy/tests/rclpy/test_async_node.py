@@ -222,7 +222,6 @@ def test_a_node_without_a_reference_leaves_the_graph(context):
     AsyncNode("forgotten", context=context)
     gc.collect()
     assert context.wait_for_graph(lambda: node.get_node_names() == ["watching"], 60 * 10**9)
-    node.destroy_node()
 
 
 async def test_a_node_starts_no_thread(context):
@@ -320,7 +319,6 @@ def test_actions_and_executors_reject_an_asynchronous_node(context):
     with pytest.raises(TypeError, match="An executor serves nodes") as caught:
         SingleThreadedExecutor(context=context).add_node(node)
     assert caught.value.hint == "Serve it in asyncio: await node.run()"
-    node.destroy_node()
 
 
 def test_a_node_whose_constructor_forgets_its_base(context):

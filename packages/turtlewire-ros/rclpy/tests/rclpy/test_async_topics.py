@@ -139,7 +139,6 @@ def test_a_callback_of_a_wrong_shape(context):
         "message) or two (to get message and message info)"
     )
     assert node.count_subscribers("x") == 0
-    node.destroy_node()
 
 
 async def test_raw_messages(context):
@@ -220,4 +219,3 @@ def test_a_subscription_with_a_callback_is_not_iterated(context):
     subscription = node.create_subscription(String, "chatter", print, 10)
     name, text = failure_of(subscription.__aiter__)
     assert (name, "create it with None as the callback" in text) == ("RuntimeError", True)
-    node.destroy_node()

@@ -97,15 +97,14 @@ def test_messages_without_news_count_too_and_each_arrival_once(listener, talker,
     assert not listener._engine.expect_message()
 
 
-def test_spin_is_not_woken(listener, talker, executor, node):
+def test_spin_is_not_woken(listener, talker, executor, node, spinning):
     talker.wait_for_listener()
     waits = []
     wait = executor._rclpy_scheduler.wait.wait
     executor._rclpy_scheduler.wait.wait = lambda timeout: (waits.append(1), wait(timeout))[1]
     done = threading.Event()
-    spinning = threading.Thread(target=executor.spin)
     node.create_guard_condition(done.set).trigger()
-    spinning.start()
+    spinning(executor)
     assert done.wait(LIMIT_S)
     before = len(waits)
     for second in range(1, 201):
@@ -114,9 +113,6 @@ def test_spin_is_not_woken(listener, talker, executor, node):
         "world", "robot", rclpy.time.Time(seconds=200), rclpy.duration.Duration(seconds=LIMIT_S)
     )
     assert len(waits) - before < 5
-    executor.shutdown()
-    spinning.join(LIMIT_S)
-    assert not spinning.is_alive()
 
 
 def test_another_executor_of_one_process_is_told_as_well(listener, talker, context):
@@ -132,4 +128,3 @@ def test_another_executor_of_one_process_is_told_as_well(listener, talker, conte
 
     assert finishes(wait_for_transform)
     executor.shutdown()
-    other.destroy_node()

@@ -192,7 +192,6 @@ def test_overrides(context):
         String, "a", given, qos_overriding_options=QoSOverridingOptions.with_default_policies()
     )
     assert again.qos_profile.depth == 7
-    node.destroy_node()
 
 
 def test_every_policy_can_be_overridden(context):
@@ -215,7 +214,6 @@ def test_every_policy_can_be_overridden(context):
     (publisher,) = [each for each in node.publishers if each.topic_name == "/a"]
     assert publisher.qos_profile.deadline.nanoseconds == 10**9
     assert publisher.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
-    node.destroy_node()
 
 
 def test_wrong_overrides(context):
@@ -241,7 +239,6 @@ def test_wrong_overrides(context):
         match=r"^Provided QoS overrides for publisher `/c`, are not valid: 3$",
     ):
         node.create_publisher(String, "c", 3, qos_overriding_options=refusing)
-    node.destroy_node()
 
 
 @needs_cyclone_dds

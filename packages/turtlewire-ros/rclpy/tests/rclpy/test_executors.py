@@ -41,31 +41,6 @@ def any_executor(request, context, node):
     executor.shutdown()
 
 
-@pytest.fixture
-def pool(context, node):
-    executor = MultiThreadedExecutor(3, context=context)
-    executor.add_node(node)
-    yield executor
-    executor.shutdown()
-
-
-@pytest.fixture
-def spinning(context):
-    """Spins an executor in a thread; the thread is joined at the end."""
-    started = []
-
-    def start(executor):
-        thread = threading.Thread(target=executor.spin)
-        thread.start()
-        started.append((executor, thread))
-
-    yield start
-    for executor, thread in started:
-        assert executor.shutdown(60)
-        thread.join(60)
-        assert not thread.is_alive()
-
-
 def add_two_ints(request, response):
     response.sum = request.a + request.b
     return response
@@ -105,7 +80,6 @@ def test_nodes_are_served_in_the_order_in_which_they_were_added(context, node, e
     executor.spin_once(timeout_sec=60)
     executor.spin_once(timeout_sec=60)
     assert order == ["tested", "second"]
-    second.destroy_node()
 
 
 def test_spin_once_runs_one_callback(node, executor):
@@ -213,7 +187,6 @@ def test_a_node_of_a_dropped_executor_is_served_by_the_next_one(context):
     following.spin_once(timeout_sec=60)
     assert calls == [1]
     following.shutdown()
-    node.destroy_node()
 
 
 def test_a_task_survives_an_interrupted_wait(node, executor, monkeypatch):
@@ -838,7 +811,6 @@ def test_an_executor_of_ones_own_decides_where_callbacks_run(context, node):
         with pytest.raises(TimeoutException):
             executor.spin_once(timeout_sec=0)
     assert executor.can_execute(guards[0])
-    other.destroy_node()
 
 
 def test_an_executor_of_ones_own_is_told_the_node_of_an_action(context, node):
@@ -850,7 +822,6 @@ def test_an_executor_of_ones_own_is_told_the_node_of_an_action(context, node):
         handler, entity, owner = executor.wait_for_ready_callbacks(timeout_sec=60)
         handler()
     assert (entity, owner) == (server, node)
-    caller.destroy_node()
 
 
 def test_a_group_that_becomes_free_while_an_entity_is_paused_is_noticed(node, executor):

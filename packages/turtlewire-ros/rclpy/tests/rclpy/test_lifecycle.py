@@ -204,7 +204,6 @@ def test_without_services(context):
     )
     assert not any("change_state" in service.srv_name for service in managed.services)
     assert managed.trigger_configure() is SUCCESS
-    managed.destroy_node()
 
 
 def test_a_destroyed_publisher_takes_part_in_no_transition(managed):

@@ -140,7 +140,6 @@ def test_a_node_can_have_less(context):
     assert [name for name, _ in node.get_publisher_names_and_types_by_node("bare", "/")] == [
         "/parameter_events"
     ]
-    node.destroy_node()
 
 
 def test_rosout_carries_what_is_logged_also_to_late_joiners(context, node, executor, spin_until):
@@ -160,7 +159,6 @@ def test_rosout_carries_what_is_logged_also_to_late_joiners(context, node, execu
     ]
     assert got[0].file.endswith("test_node.py")
     assert got[0].function == "test_rosout_carries_what_is_logged_also_to_late_joiners"
-    other.destroy_node()
 
 
 def test_endpoints_of_a_node(node):
@@ -197,9 +195,8 @@ def test_destroying_a_node_closes_everything(context, executor):
         assert "with" in other.get_node_names()
 
 
-def test_nodes_can_be_made_and_destroyed_by_many_threads(context, executor):
-    spinning = threading.Thread(target=executor.spin)
-    spinning.start()
+def test_nodes_can_be_made_and_destroyed_by_many_threads(context, executor, spinning):
+    spinning(executor)
     failures = []
 
     def live(number):
@@ -219,8 +216,6 @@ def test_nodes_can_be_made_and_destroyed_by_many_threads(context, executor):
         thread.start()
     for thread in threads:
         thread.join()
-    executor.shutdown()
-    spinning.join(60)
     assert failures == []
 
 

@@ -285,7 +285,6 @@ def test_overrides_of_the_command_line_and_the_constructor(context):
         "b": 60,
         "c": [1, 2],
     }
-    node.destroy_node()
 
 
 def test_the_type_description_service_can_be_left_out(context):
@@ -298,7 +297,6 @@ def test_the_type_description_service_can_be_left_out(context):
     names = [name for name, _ in node.get_service_names_and_types_by_node("quiet", "/")]
     assert "/quiet/get_parameters" in names
     assert "/quiet/get_type_description" not in names
-    node.destroy_node()
 
 
 def test_every_log_text_reaches_rosout(world):

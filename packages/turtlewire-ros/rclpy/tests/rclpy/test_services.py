@@ -100,17 +100,14 @@ def test_done_callbacks_of_a_response_run_on_the_executor(node, executor, spin_u
     assert sums == [3]
 
 
-def test_blocking_call_from_another_thread(node, executor):
+def test_blocking_call_from_another_thread(node, executor, spinning):
     node.create_service(AddTwoInts, "add", add)
     client = node.create_client(AddTwoInts, "add")
-    spinning = threading.Thread(target=executor.spin)
-    spinning.start()
+    spinning(executor)
     assert client.wait_for_service(timeout_sec=60)
     assert client.call(AddTwoInts.Request(a=3, b=4)).sum == 7
     nobody = node.create_client(AddTwoInts, "nobody")
     assert nobody.call(AddTwoInts.Request(), timeout_sec=0.05) is None
-    executor.shutdown()
-    spinning.join(60)
 
 
 def test_a_shutdown_ends_a_blocking_call(context, node):

@@ -304,7 +304,6 @@ def test_a_program_may_have_attributes_of_its_own(context, kind):
         "get_servers_info_by_service",
     }
     assert public - of_ros_2.keys() == of_lyrical
-    node.destroy_node()
 
 
 def test_node_is_a_facade():

@@ -62,7 +62,6 @@ def test_the_command_line_turns_it_on(context):
     node = Node("simulated", context=context, cli_args=["--ros-args", "-p", "use_sim_time:=true"])
     assert node.get_clock().ros_time_is_active
     assert len(clock_subscriptions(node)) == 1
-    node.destroy_node()
 
 
 def test_nothing_but_a_bool(node):
@@ -84,7 +83,6 @@ def test_a_dynamic_parameter_of_another_type(context, capfd):
     )
     (result,) = node.set_parameters([Parameter("use_sim_time", value=2)])
     assert result.reason == "use_sim_time parameter set to something besides a bool"
-    node.destroy_node()
 
 
 def test_a_simulated_timer_fires_with_the_clock(node, executor, simulator):

@@ -9,7 +9,7 @@ from rclpy._execution.timer_queue import TimerQueue
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ClockType, ROSClock
 from rclpy.exceptions import InvalidHandle, ROSInterruptException
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import ExternalShutdownException
 from rclpy.time import Time
 from rclpy.timer import Timer
 from turtlewire.wire.queue_wait_set import QueueWaitSet
@@ -188,15 +188,11 @@ def test_the_executor_waits_no_longer_than_to_the_next_call(node, executor, monk
         assert waits.pop() <= max(left, 0)
 
 
-def test_a_timer_made_while_the_executor_waits_is_served(node, executor):
+def test_a_timer_made_while_the_executor_waits_is_served(node, executor, spinning):
     called = threading.Event()
-    thread = threading.Thread(target=executor.spin)
-    thread.start()
+    spinning(executor)
     node.create_timer(0.01, called.set)
     assert called.wait(60)
-    executor.shutdown()
-    thread.join(60)
-    assert not thread.is_alive()
 
 
 def spin_until_shutdown(executor):
@@ -253,7 +249,7 @@ def test_rate_raises_in_the_spinning_thread(node, executor):
         executor.spin()  # spin_once may find something else ready before the timer
 
 
-def test_a_rate_may_sleep_in_a_callback_of_another_thread_of_the_pool(context, node):
+def test_a_rate_may_sleep_in_a_callback_of_another_thread_of_the_pool(node, pool, spinning):
     rate, slept = node.create_rate(100), threading.Event()
 
     def sleep_once():
@@ -262,14 +258,8 @@ def test_a_rate_may_sleep_in_a_callback_of_another_thread_of_the_pool(context, n
         slept.set()
 
     timer = node.create_timer(0.001, sleep_once, callback_group=ReentrantCallbackGroup())
-    executor = MultiThreadedExecutor(2, context=context)
-    executor.add_node(node)
-    spinning = threading.Thread(target=executor.spin)
-    spinning.start()
+    spinning(pool)
     assert slept.wait(60)
-    assert executor.shutdown(60)
-    spinning.join(60)
-    assert not spinning.is_alive()
 
 
 def test_a_frequency_must_be_positive(node):

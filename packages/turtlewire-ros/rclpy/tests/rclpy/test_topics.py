@@ -366,4 +366,3 @@ def test_wait_for_message_in_a_callback(context, node):
 def test_a_publisher_names_the_logger_of_its_node(context):
     node = Node("talker", namespace="robot", context=context)
     assert node.create_publisher(String, "chatter", 1).logger_name == "robot.talker"
-    node.destroy_node()
