@@ -169,31 +169,19 @@ def test_malformed_rules(words, text):
     assert str(caught.value).endswith(text)
 
 
+def parsed(line):
+    return Arguments.parse(line.split())
+
+
 def test_everything_unknown_is_listed():
     with pytest.raises(UnknownROSArgsError) as caught:
-        Arguments.parse(
-            ["a", "--ros-args", "--nope", "-r", "a:=b", "b", "--", "c", "--ros-args", "d"]
-        )
+        parsed("a --ros-args --nope -r a:=b b -- c --ros-args d")
     assert str(caught.value) == "['--nope', 'b', 'd']"
 
 
 def test_blocks_and_user_arguments():
-    arguments = Arguments.parse(
-        [
-            "program",
-            "-r",
-            "--ros-args",
-            "-r",
-            "a:=b",
-            "--",
-            "user",
-            "--",
-            "--ros-args",
-            "--log-level",
-            "WARN",
-            "--log-level",
-            "rcl.x:=debug",
-        ]
+    arguments = parsed(
+        "program -r --ros-args -r a:=b -- user -- --ros-args --log-level WARN --log-level rcl.x:=debug"
     )
     assert arguments.user_args == ["program", "-r", "user", "--"]
     assert arguments.remap_topic("/a", "n", "/") == "/b"
@@ -201,33 +189,16 @@ def test_blocks_and_user_arguments():
 
 
 def test_switches_and_the_rest():
-    arguments = Arguments.parse(
-        [
-            "--ros-args",
-            "--disable-stdout-logs",
-            "--disable-rosout-logs",
-            "--enable-rosout-logs",
-            "--disable-external-lib-logs",
-            "--log-file-name",
-            "robot",
-            "--enclave",
-            "/a/b",
-            "--log-config-file",
-            "x",
-        ]
+    arguments = parsed(
+        "--ros-args --disable-stdout-logs --disable-rosout-logs --enable-rosout-logs "
+        "--disable-external-lib-logs --log-file-name robot --enclave /a/b --log-config-file x"
     )
-    assert (arguments.stdout_logs, arguments.rosout_logs, arguments.external_lib_logs) == (
-        False,
-        True,
-        False,
-    )
-    assert (arguments.log_file_name, arguments.enclave, arguments.log_config_file) == (
-        "robot",
-        "/a/b",
-        "x",
-    )
+    switches = arguments.stdout_logs, arguments.rosout_logs, arguments.external_lib_logs
+    assert switches == (False, True, False)
+    names = arguments.log_file_name, arguments.enclave, arguments.log_config_file
+    assert names == ("robot", "/a/b", "x")
     with pytest.raises(RCLInvalidROSArgsError):
-        Arguments.parse(["--ros-args", "--log-file-name", "../x"])
+        parsed("--ros-args --log-file-name ../x")
 
 
 def rules(*texts):
@@ -441,30 +412,13 @@ def test_python_values_survive_yaml(value):
 
 
 def test_rules_with_a_node_and_slashes():
-    arguments = Arguments.parse(
-        [
-            "--ros-args",
-            "-p",
-            "n:a.b:=1",
-            "-p",
-            "qos_overrides./chatter.publisher.depth:=5",
-            "-p",
-            "c:=x",
-        ]
+    arguments = parsed(
+        "--ros-args -p n:a.b:=1 -p qos_overrides./chatter.publisher.depth:=5 -p c:=x"
     )
-    assert arguments.parameter_overrides("/n") == {
-        "a.b": 1,
-        "qos_overrides./chatter.publisher.depth": 5,
-        "c": "x",
-    }
-    assert arguments.parameter_overrides("/m") == {
-        "qos_overrides./chatter.publisher.depth": 5,
-        "c": "x",
-    }
-    assert arguments.parameter_overrides("/ns/n") == {
-        "qos_overrides./chatter.publisher.depth": 5,
-        "c": "x",
-    }
+    of_all = {"qos_overrides./chatter.publisher.depth": 5, "c": "x"}
+    assert arguments.parameter_overrides("/n") == {"a.b": 1, **of_all}
+    assert arguments.parameter_overrides("/m") == of_all
+    assert arguments.parameter_overrides("/ns/n") == of_all
 
 
 FILE = """\

@@ -317,16 +317,8 @@ def test_stdout_and_wrong_values(logger, monkeypatch, capfd):
 
 
 def test_the_command_line_decides(logger, capfd):
-    Arguments.parse(
-        [
-            "--ros-args",
-            "--log-level",
-            "warn",
-            "--log-level",
-            "robot:=debug",
-            "--disable-external-lib-logs",
-        ]
-    ).configure_logging()
+    words = "--ros-args --log-level warn --log-level robot:=debug --disable-external-lib-logs"
+    Arguments.parse(words.split()).configure_logging()
     logger.debug("shown")
     rclpy.logging.get_logger("other").info("hidden")
     assert messages(capfd) == ["shown"]

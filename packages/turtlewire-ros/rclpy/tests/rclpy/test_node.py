@@ -150,12 +150,14 @@ def test_rosout_carries_what_is_logged_also_to_late_joiners(context, node, execu
     got = []
     latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     other.create_subscription(Log, "/rosout", got.append, latched)
-    node.get_logger().info("after")
+    node.get_logger().info(
+        "after \udce9.txt"
+    )  # as on the console, what UTF-8 cannot hold is escaped
     spin_until(lambda: len(got) == 3)
     assert [(log.level, log.name, log.msg) for log in got] == [
         (30, "tested", "before"),
         (40, "tested.part", "of a child"),
-        (20, "tested", "after"),
+        (20, "tested", "after \\udce9.txt"),
     ]
     assert got[0].file.endswith("test_node.py")
     assert got[0].function == "test_rosout_carries_what_is_logged_also_to_late_joiners"

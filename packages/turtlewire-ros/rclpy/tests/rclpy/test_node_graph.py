@@ -79,30 +79,22 @@ def test_topics_and_services(node, other, wait_for):
 
 
 def test_by_node(node, other, wait_for):
-    def known():
-        try:
-            return (
-                "/ns/number" in dict(node.get_publisher_names_and_types_by_node("other", "/ns"))
-                and "/chatter" in dict(node.get_subscriber_names_and_types_by_node("other", "/ns"))
-                and "/ns/serve" in dict(node.get_service_names_and_types_by_node("other", "/ns"))
-                and "/ns/ask" in dict(node.get_client_names_and_types_by_node("other", "/ns"))
-            )
-        except NodeNameNonExistentError:
-            return False
+    expected = {
+        "publisher": ("/ns/number", ["std_msgs/msg/Int32"]),
+        "subscriber": ("/chatter", ["std_msgs/msg/String"]),
+        "service": ("/ns/serve", ["std_srvs/srv/Trigger"]),
+        "client": ("/ns/ask", ["std_srvs/srv/Trigger"]),
+    }
 
-    wait_for(known)
-    assert dict(node.get_publisher_names_and_types_by_node("other", "/ns"))["/ns/number"] == [
-        "std_msgs/msg/Int32"
-    ]
-    assert node.get_subscriber_names_and_types_by_node("other", "/ns") == [
-        ("/chatter", ["std_msgs/msg/String"])
-    ]
-    assert dict(node.get_service_names_and_types_by_node("other", "/ns"))["/ns/serve"] == [
-        "std_srvs/srv/Trigger"
-    ]
-    assert node.get_client_names_and_types_by_node("other", "/ns") == [
-        ("/ns/ask", ["std_srvs/srv/Trigger"])
-    ]
+    def found(kind):
+        try:
+            return getattr(node, f"get_{kind}_names_and_types_by_node")("other", "/ns")
+        except NodeNameNonExistentError:
+            return []
+
+    wait_for(lambda: all(expected[kind] in found(kind) for kind in expected))
+    for kind in ("subscriber", "client"):  # the others of the node are built in
+        assert found(kind) == [expected[kind]]
     assert "rt/ns/number" in dict(
         node.get_publisher_names_and_types_by_node("other", "/ns", no_demangle=True)
     )

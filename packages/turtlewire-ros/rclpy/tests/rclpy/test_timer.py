@@ -34,68 +34,33 @@ def drain(executor):
         executor.spin_once(timeout_sec=0)
 
 
-def test_the_first_call_comes_after_one_period(node, executor, clock):
-    calls = []
-    node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
-    drain(executor)
-    move(clock, 1099)
-    drain(executor)
-    assert calls == []
-    move(clock, 1100)
-    drain(executor)
-    assert calls == [1100]
-
-
-def test_missed_periods_are_skipped_and_the_rhythm_is_kept(node, executor, clock):
-    calls = []
-    timer = node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
-    for now in (1100, 1475, 1499, 1500, 1600):
-        move(clock, now)
-        drain(executor)
-    assert calls == [1100, 1475, 1500, 1600]
-    assert timer.time_until_next_call() == 100 * MS
-
-
-@pytest.mark.parametrize(("now", "calls"), [(1299, [1299]), (1300, [1300, 1300])])
-def test_a_period_that_ends_now_is_not_missed(node, executor, clock, now, calls):
+@pytest.mark.parametrize(
+    ("moves", "calls", "until_next"),
+    [
+        pytest.param([1099, 1100], [1100], 100, id="the first call comes after one period"),
+        pytest.param(
+            [1100, 1475, 1499, 1500, 1600],
+            [1100, 1475, 1500, 1600],
+            100,
+            id="missed periods are skipped and the rhythm is kept",
+        ),
+        pytest.param([1299], [1299], 1, id="a period that ends soon is not missed"),
+        pytest.param([1300], [1300, 1300], 100, id="nor is one that ends now"),
+        pytest.param([1130, 1199, 1200], [1130, 1200], 100, id="a late call moves no other"),
+        pytest.param([1100, 500, 599, 600], [1100, 600], 100, id="back behind the last call"),
+        pytest.param([1130, 1150, 1130], [1130], 70, id="back to the last call"),
+        pytest.param([1130, 1150, 1129], [1130], 100, id="back just behind the last call"),
+    ],
+)
+def test_calls_while_the_clock_moves(node, executor, clock, moves, calls, until_next):
+    """Only a jump to before the last call starts a whole period."""
     made = []
     timer = node.create_timer(0.1, lambda: made.append(clock.now().nanoseconds // MS), clock=clock)
-    move(clock, now)
-    drain(executor)
+    for now in moves:
+        move(clock, now)
+        drain(executor)
     assert made == calls
-    move(clock, 1300)
-    drain(executor)
-    assert timer.time_until_next_call() == 100 * MS
-
-
-def test_a_late_call_does_not_move_the_next_one(node, executor, clock):
-    calls = []
-    node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
-    for now in (1130, 1199, 1200):
-        move(clock, now)
-        drain(executor)
-    assert calls == [1130, 1200]
-
-
-def test_time_that_goes_back_behind_the_last_call_starts_a_new_period(node, executor, clock):
-    calls = []
-    timer = node.create_timer(0.1, lambda: calls.append(clock.now().nanoseconds // MS), clock=clock)
-    for now in (1100, 500, 599, 600):
-        move(clock, now)
-        drain(executor)
-    assert calls == [1100, 600]
-    assert timer.time_until_next_call() == 100 * MS
-
-
-@pytest.mark.parametrize(("back_to", "next_call"), [(1130, 1200), (1129, 1229)])
-def test_time_that_goes_back_to_the_last_call_keeps_the_rhythm(
-    node, executor, clock, back_to, next_call
-):
-    timer = node.create_timer(0.1, lambda: None, clock=clock)
-    for now in (1130, 1150, back_to):
-        move(clock, now)
-        drain(executor)
-    assert timer.time_until_next_call() == (next_call - back_to) * MS
+    assert timer.time_until_next_call() == until_next * MS
 
 
 def test_rest_of_the_period_survives_a_clock_change(node, clock):
