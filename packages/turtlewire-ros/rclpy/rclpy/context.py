@@ -72,7 +72,7 @@ class Context:
         self.ended_at_exit = False
         self._callbacks: list[Callable[[], Callable[[], None] | None]] = []
         self.waits: set[_Wait] = set()
-        self._schedulers: weakref.WeakSet[_Scheduler] = weakref.WeakSet()
+        self._schedulers: weakref.WeakSet[_Scheduler] = weakref.WeakSet()  # of its executors
         self._nodes: weakref.WeakSet[_Node] = weakref.WeakSet()
 
     def init(
@@ -134,14 +134,6 @@ class Context:
                     logging.configure_logging()
             if_it_fails.pop_all()
         return wire
-
-    def note_scheduler(self, scheduler: _Scheduler) -> None:
-        """Have :meth:`schedulers` name it while it exists."""
-        self._schedulers.add(scheduler)
-
-    def schedulers(self) -> list[_Scheduler]:
-        """Return the schedulers of all executors of this context."""
-        return list(self._schedulers)
 
     def track_node(self, node: _Node) -> None:
         """Have a shutdown destroy a node, as in Kilted and later; held weakly."""

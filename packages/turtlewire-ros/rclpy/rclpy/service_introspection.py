@@ -1,6 +1,6 @@
 """Service introspection: clients and servers publish what they send and receive.
 
-The events go to ``<service>/_service_event``; those of an action go to three such topics.
+The events go to ``<service>/_service_event``; an action has three such topics.
 """
 
 from __future__ import annotations

@@ -161,7 +161,8 @@ def _warn_of_long_wait(call: BlockingCall) -> None:
 def _warn_of_other_executor(call: BlockingCall) -> None:
     """Warn if another executor of this process has the request and cannot run the service."""
     if any(
-        host is not call.host and host.holds_up(call.service) for host in call.context.schedulers()
+        host is not call.host and host.holds_up(call.service)
+        for host in list(call.context._schedulers)
     ):
         call.logger.warning(
             f"Waiting for a response of service '{call.service}', which another executor "

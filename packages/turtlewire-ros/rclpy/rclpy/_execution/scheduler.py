@@ -72,7 +72,7 @@ class Scheduler(ServedEntities):
         self._collecting = False
         self._response_awaited: Future[Any] | None = None
         context.on_shutdown(self.wake)
-        context.note_scheduler(self)
+        context._schedulers.add(self)
 
     # Tasks
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class ServedEntities:
-    """The entities that an executor serves: those of its nodes, and some without a node.
+    """The entities that an executor serves: of its nodes, and some without a node.
 
     Attributes:
         context: Its context.

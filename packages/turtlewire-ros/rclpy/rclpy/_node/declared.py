@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 class DeclaredParameters(Mapping[str, Parameter]):
     """Values and descriptors by name; :class:`NodeParameters` changes them.
 
-    The methods are those of :class:`rclpy.node.Node`, which describes them.
+    :class:`rclpy.node.Node` has the same methods, and describes them.
 
     Programs read ``node._parameters`` as the dictionary that it is in ROS 2.
 

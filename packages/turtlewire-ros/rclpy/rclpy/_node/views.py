@@ -1,4 +1,4 @@
-"""Views of a node: those of its built-in parts, which need not know all of it, and its handle."""
+"""Views of a node for its built-in parts, which need not know all of it, and its handle."""
 
 from __future__ import annotations
 
