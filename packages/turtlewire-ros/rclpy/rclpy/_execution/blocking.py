@@ -160,10 +160,8 @@ def _warn_of_long_wait(call: BlockingCall) -> None:
 
 def _warn_of_other_executor(call: BlockingCall) -> None:
     """Warn if another executor of this process has the request and cannot run the service."""
-    if any(
-        host is not call.host and host.holds_up(call.service)
-        for host in list(call.context._schedulers)
-    ):
+    others = [host for host in list(call.context._schedulers) if host is not call.host]
+    if any(host.holds_up(call.service) for host in others):
         call.logger.warning(
             f"Waiting for a response of service '{call.service}', which another executor "
             "of this process serves: all its threads, or the service's callback group, are busy. "

@@ -181,7 +181,8 @@ def test_everything_unknown_is_listed():
 
 def test_blocks_and_user_arguments():
     arguments = parsed(
-        "program -r --ros-args -r a:=b -- user -- --ros-args --log-level WARN --log-level rcl.x:=debug"
+        "program -r --ros-args -r a:=b -- user -- "
+        "--ros-args --log-level WARN --log-level rcl.x:=debug"
     )
     assert arguments.user_args == ["program", "-r", "user", "--"]
     assert arguments.remap_topic("/a", "n", "/") == "/b"
