@@ -84,6 +84,20 @@ def spinning(context):
         assert not thread.is_alive()
 
 
+@pytest.fixture
+def later():
+    """Calls something in another thread in a moment, while the test waits."""
+    timers = []
+
+    def start(call, *arguments):
+        timers.append(threading.Timer(0.05, call, arguments))
+        timers[-1].start()
+
+    yield start
+    for timer in timers:
+        timer.join()
+
+
 class Program:
     """A Python program in a separate process, whose output is read line by line."""
 

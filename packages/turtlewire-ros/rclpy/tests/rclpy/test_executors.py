@@ -96,12 +96,10 @@ def test_spin_once_runs_one_callback(node, executor):
     assert calls == [0, 1]
 
 
-def test_a_wake_up_for_nothing_does_not_end_spin_once(executor):
+def test_a_wake_up_for_nothing_does_not_end_spin_once(later, executor):
     start = time.monotonic()
-    waking = threading.Timer(0.02, executor.wake)
-    waking.start()
+    later(executor.wake)
     executor.spin_once(timeout_sec=0.1)
-    waking.join()
     assert time.monotonic() - start >= 0.1
 
 
@@ -204,16 +202,14 @@ def test_a_task_survives_an_interrupted_wait(node, executor, monkeypatch):
     assert calls == [1]
 
 
-def test_a_shutdown_may_wait_without_limit(node, executor, spinning):
+def test_a_shutdown_may_wait_without_limit(later, node, executor, spinning):
     begun, goes_on = threading.Event(), threading.Event()
     node.create_guard_condition(lambda: (begun.set(), goes_on.wait(60))).trigger()
     spinning(executor)
     assert begun.wait(60)
-    alarm = threading.Timer(0.05, goes_on.set)
-    alarm.start()
+    later(goes_on.set)
     assert executor.shutdown(timeout_sec=math.inf)
     assert executor.get_nodes() == []
-    alarm.join()
 
 
 def test_an_exception_leaves_spin_and_the_group_is_free_again(node, executor):
@@ -524,13 +520,11 @@ def test_an_exclusive_group_never_runs_twice_at_a_time(node, pool, spinning):
     assert overlaps == [1] * 80
 
 
-def test_spin_until_future_complete(any_executor):
+def test_spin_until_future_complete(later, any_executor):
     future = Future()
-    setting = threading.Timer(0.05, future.set_result, args=(7,))
-    setting.start()
+    later(future.set_result, 7)
     any_executor.spin_until_future_complete(future, timeout_sec=60)
     assert future.result() == 7
-    setting.join()
     start = time.monotonic()
     any_executor.spin_until_future_complete(Future(), timeout_sec=0.05)
     assert 0.05 <= time.monotonic() - start < 30
@@ -704,20 +698,16 @@ def test_shutdown_in_a_callback_ends_spin(node, any_executor):
     assert node.executor is None
 
 
-def test_shutting_the_context_down_ends_spin(context, executor):
-    ending = threading.Timer(0.05, context.shutdown)
-    ending.start()
+def test_shutting_the_context_down_ends_spin(later, context, executor):
+    later(context.shutdown)
     with pytest.raises(ExternalShutdownException):
         executor.spin()
-    ending.join()
     executor.spin()
 
 
-def test_a_pool_returns_from_spin_when_the_context_is_shut_down(context, pool):
-    ending = threading.Timer(0.05, context.shutdown)
-    ending.start()
+def test_a_pool_returns_from_spin_when_the_context_is_shut_down(later, context, pool):
+    later(context.shutdown)
     pool.spin()
-    ending.join()
 
 
 def test_with_statement_shuts_down(context):
@@ -926,14 +916,12 @@ def test_an_executor_that_is_dropped_gives_back_its_wait_set(context):
     assert context.wire._wait_sets == before
 
 
-def test_a_timeout_that_changes_between_waits(executor):
+def test_a_timeout_that_changes_between_waits(later, executor):
     timeout = TimeoutObject(0.0)
     with pytest.raises(TimeoutException):
         executor.wait_for_ready_callbacks(timeout)
     timeout.timeout = 60.0
-    waking = threading.Timer(0.02, executor.create_task, [lambda: None])
-    waking.start()
+    later(executor.create_task, lambda: None)
     handler, _, _ = executor.wait_for_ready_callbacks(timeout_sec=timeout)
     handler()
-    waking.join()
     assert (handler.done(), timeout.timeout) == (True, 60.0)

@@ -1,7 +1,5 @@
 """init, ok, shutdown and contexts."""
 
-import threading
-
 import pytest
 from tests.needs import needs_cyclone_dds
 from tests.programs import run_python
@@ -209,13 +207,11 @@ def test_the_global_executor_belongs_to_the_default_context():
     assert second.context is get_default_context()
 
 
-def test_spin_returns_when_another_thread_shuts_down():
+def test_spin_returns_when_another_thread_shuts_down(later):
     rclpy.init(args=[])
     node = rclpy.create_node("spinning")
-    ending = threading.Timer(0.05, rclpy.shutdown)
-    ending.start()
+    later(rclpy.shutdown)
     rclpy.spin(node)
-    ending.join()
     node.destroy_node()
 
 

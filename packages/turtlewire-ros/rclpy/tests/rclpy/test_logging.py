@@ -5,6 +5,7 @@ import re
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from typing import ClassVar
 
 import pytest
@@ -416,11 +417,8 @@ def test_lines_of_threads_do_not_mix(logger, capfd):
         for index in range(200):
             logger.info(f"{name}{index} " + name * 50)
 
-    threads = [threading.Thread(target=work, args=(name,)) for name in "abcd"]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(work, "abcd"))
     lines = messages(capfd)
     assert len(lines) == 800
     assert all(re.fullmatch(r"([abcd])\d+ \1{50}", line) for line in lines)
@@ -430,15 +428,12 @@ def test_once_is_once_for_all_threads(capfd):
     logger = RcutilsLogger("x")
     barrier = threading.Barrier(8)
 
-    def work():
+    def work(_):
         barrier.wait()
         logger.info("only", once=True)
 
-    threads = [threading.Thread(target=work) for _ in range(8)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(8) as pool:
+        list(pool.map(work, range(8)))
     assert messages(capfd) == ["only"]
 
 

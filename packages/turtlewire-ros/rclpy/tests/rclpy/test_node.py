@@ -2,6 +2,7 @@
 
 import gc
 import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -199,26 +200,18 @@ def test_destroying_a_node_closes_everything(context, executor):
 
 def test_nodes_can_be_made_and_destroyed_by_many_threads(context, executor, spinning):
     spinning(executor)
-    failures = []
 
     def live(number):
-        try:
-            for round_number in range(5):
-                node = Node(f"node_{number}_{round_number}", context=context)
-                executor.add_node(node)
-                called = threading.Event()
-                node.create_timer(0.001, called.set)
-                assert called.wait(60)
-                node.destroy_node()
-        except BaseException as error:
-            failures.append(error)
+        for round_number in range(5):
+            node = Node(f"node_{number}_{round_number}", context=context)
+            executor.add_node(node)
+            called = threading.Event()
+            node.create_timer(0.001, called.set)
+            assert called.wait(60)
+            node.destroy_node()
 
-    threads = [threading.Thread(target=live, args=(number,)) for number in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert failures == []
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(live, range(4)))
 
 
 def gone(observer, name):

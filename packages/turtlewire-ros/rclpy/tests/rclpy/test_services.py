@@ -1,7 +1,6 @@
 """Clients and services, on both middlewares."""
 
 import math
-import threading
 
 import pytest
 
@@ -59,29 +58,27 @@ def test_responses_find_their_requests(node, executor, context):
     assert [client._pending for client in clients] == [{}, {}]
 
 
-def test_wait_for_service_ends_when_the_service_comes_or_the_time_is_over(node, executor, context):
+def test_wait_for_service_ends_when_the_service_comes_or_the_time_is_over(
+    later, node, executor, context
+):
     client = node.create_client(AddTwoInts, "add")
     assert not client.service_is_ready()
     assert not client.wait_for_service(timeout_sec=0)
     assert not client.wait_for_service(timeout_sec=0.05)
     assert not client.wait_for_service(timeout_sec=-0.5)  # what is left after a deadline
-    offering = threading.Timer(0.1, node.create_service, args=(AddTwoInts, "add", add))
-    offering.start()
+    later(node.create_service, AddTwoInts, "add", add)
     assert client.wait_for_service(timeout_sec=math.inf)
     assert client.wait_for_service(timeout_sec=-0.5)
-    offering.join()
     assert ask(executor, client, 1, 1) == 2
 
 
-def test_wait_for_service_raises_on_an_invalid_context(node, context):
+def test_wait_for_service_raises_on_an_invalid_context(later, node, context):
     """Else the loop of the tutorial's client would go on forever after SIGTERM."""
     client = node.create_client(AddTwoInts, "add")
     text = "^failed to check service availability: rcl node's context is invalid$"
-    timer = threading.Timer(0.2, context.shutdown)
-    timer.start()
+    later(context.shutdown)
     with pytest.raises(RCLError, match=text):
         client.wait_for_service()
-    timer.join()
     with pytest.raises(RCLError, match=text):
         client.wait_for_service(timeout_sec=1.0)
     with pytest.raises(RCLError, match=text):
@@ -110,13 +107,11 @@ def test_blocking_call_from_another_thread(node, executor, spinning):
     assert nobody.call(AddTwoInts.Request(), timeout_sec=0.05) is None
 
 
-def test_a_shutdown_ends_a_blocking_call(context, node):
+def test_a_shutdown_ends_a_blocking_call(later, context, node):
     client = node.create_client(AddTwoInts, "nobody")
-    ending = threading.Timer(0.05, context.shutdown)
-    ending.start()
+    later(context.shutdown)
     with pytest.raises(ExternalShutdownException):
         client.call(AddTwoInts.Request())
-    ending.join()
 
 
 def test_a_cancelled_request_is_forgotten(node):

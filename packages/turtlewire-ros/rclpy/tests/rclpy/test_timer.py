@@ -165,7 +165,7 @@ def spin_until_shutdown(executor):
         executor.spin()
 
 
-def test_a_rate_keeps_its_frequency_and_ends_with_the_context(context, node, executor):
+def test_a_rate_keeps_its_frequency_and_ends_with_the_context(later, context, node, executor):
     start = time.monotonic()
     rate = node.create_rate(100)
     spinning = threading.Thread(target=spin_until_shutdown, args=(executor,))
@@ -175,11 +175,9 @@ def test_a_rate_keeps_its_frequency_and_ends_with_the_context(context, node, exe
     assert time.monotonic() - start >= 0.035
     assert node.destroy_rate(rate)
     slow = node.create_rate(0.001)
-    ending = threading.Timer(0.05, context.shutdown)
-    ending.start()
+    later(context.shutdown)
     with pytest.raises(ROSInterruptException):
         slow.sleep()
-    ending.join()
     spinning.join(60)
     assert not spinning.is_alive()
 
@@ -192,13 +190,11 @@ def test_one_thread_may_spin_once_and_then_sleep(node, executor):
         rate.sleep()
 
 
-def test_a_destroyed_rate_does_not_sleep(node):
+def test_a_destroyed_rate_does_not_sleep(later, node):
     rate = node.create_rate(0.001)
-    ending = threading.Timer(0.05, node.destroy_rate, args=(rate,))
-    ending.start()
+    later(node.destroy_rate, rate)
     with pytest.raises(RuntimeError, match="Rate cannot sleep because it has been destroyed"):
         rate.sleep()
-    ending.join()
     with pytest.raises(RuntimeError, match="Rate cannot sleep because it has been destroyed"):
         rate.sleep()
 
