@@ -104,4 +104,6 @@ def get_logging_directory() -> Path:
 
     ROS_LOG_DIR, else the folder ``log`` in ROS_HOME, else ``~/.ros/log``.
     """
-    return log_output.logging_directory()
+    from pathlib import Path
+
+    return Path(log_output.directory())

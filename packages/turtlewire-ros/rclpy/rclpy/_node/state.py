@@ -67,7 +67,7 @@ class NodeState:
         self.before_leaving: dict[Callable[[], None], None] = {}
         # Refers to the wire node instead of this object, which the finalizer must not keep alive.
         leave = partial(_leave, self._wire, rosout, self.before_leaving)
-        self._end = weakref.finalize(self, _leave_later, context.wire, leave)
+        self._end = weakref.finalize(self, _leave_later, context.wire, leave, rosout)
         self._end.atexit = False  # the node ends with its context
         self._leave = leave
 
@@ -99,8 +99,13 @@ def _leave(
     wire.close()
 
 
-def _leave_later(context: base.Context, leave: partial[None]) -> None:
+def _leave_later(
+    context: base.Context, leave: partial[None], rosout: RosoutPublisher | None
+) -> None:
     """Leave on another thread: the garbage collector runs anywhere, with any lock held."""
+    # At once: a closed context calls nothing, and the next node may have the same name.
+    if rosout is not None:
+        rosout.forget()
     context.call_soon(leave)
 
 
@@ -138,9 +143,13 @@ class RosoutPublisher:
             self._wire.publish(msg.serialize(log))
         except WireError:
             # The context is gone; the console still has the line.
-            log_output.remove_rosout_sink(self._logger_name)
+            self.forget()
+
+    def forget(self) -> None:
+        """Publish no further records. Idempotent."""
+        log_output.remove_rosout_sink(self._logger_name, self._publish)
 
     def close(self) -> None:
-        """Publish no further records. Idempotent."""
-        log_output.remove_rosout_sink(self._logger_name)
+        """Publish no further records, and leave the topic. Idempotent."""
+        self.forget()
         self._wire.close()

@@ -13,14 +13,11 @@ import os
 import sys
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from . import log_levels
 from .failed_lookups import WHOLE, Shown
 from .logging_severity import LoggingSeverity
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 _COLOURS = {10: "\033[32m", 20: "\033[0m", 30: "\033[33m", 40: "\033[31m", 50: "\033[31m"}
 _RESET = "\033[0m"
@@ -160,9 +157,8 @@ class _File:
     def _open(self) -> None:
         name = self._prefix or os.path.basename(sys.argv[0] if sys.argv else "") or "python3"
         try:
-            directory = _directory()
-            os.makedirs(directory, exist_ok=True)
-            path = f"{directory}/{name}_{os.getpid()}_{time.time_ns() // 1_000_000}.log"
+            os.makedirs(directory(), exist_ok=True)
+            path = f"{directory()}/{name}_{os.getpid()}_{time.time_ns() // 1_000_000}.log"
             self._fd = os.open(
                 path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644
             )
@@ -272,24 +268,16 @@ def add_rosout_sink(name: str, sink: Callable[[LogRecord], None]) -> None:
     _rosout_sinks[name] = sink
 
 
-def remove_rosout_sink(name: str) -> None:
-    """Publish no further records of logger ``name``. Idempotent."""
-    _rosout_sinks.pop(name, None)
+def remove_rosout_sink(name: str, sink: Callable[[LogRecord], None]) -> None:
+    """Undo :func:`add_rosout_sink`; another sink of the same logger stays. Idempotent."""
+    if _rosout_sinks.get(name) == sink:
+        _rosout_sinks.pop(name, None)
 
 
-def logging_directory() -> Path:
-    """Return the directory of log files.
-
-    It is ROS_LOG_DIR, else the folder ``log`` in ROS_HOME, else ``~/.ros/log``.
-    """
-    from pathlib import Path
-
-    return Path(_directory())
-
-
-def _directory() -> str:
-    directory = os.environ.get("ROS_LOG_DIR") or f"{os.environ.get('ROS_HOME') or '~/.ros'}/log"
-    return os.path.expanduser(directory)
+def directory() -> str:
+    """Return the directory of log files; see :func:`rclpy.logging.get_logging_directory`."""
+    path = os.environ.get("ROS_LOG_DIR") or f"{os.environ.get('ROS_HOME') or '~/.ros'}/log"
+    return os.path.expanduser(path)
 
 
 def _sink_of(name: str) -> Callable[[LogRecord], None] | None:

@@ -29,7 +29,7 @@ def rosout():
     records = []
     log_output.add_rosout_sink("listener", records.append)
     yield records
-    log_output.remove_rosout_sink("listener")
+    log_output.remove_rosout_sink("listener", records.append)
 
 
 def listener(buffer):

@@ -387,7 +387,7 @@ def test_records_reach_the_sink_of_their_node(logger):
         rclpy.logging.get_logger("robot").info("parent")
         rclpy.logging.get_logger("robot.camera2").info("other")
     finally:
-        log_output.remove_rosout_sink("robot.camera")
+        log_output.remove_rosout_sink("robot.camera", records.append)
     logger.info("late")
     shown = [
         (record.severity, record.name, record.message, record.function_name, record.file_name)
@@ -406,9 +406,11 @@ def test_two_nodes_of_one_name_share_the_first_sink(logger, capfd):
         "[rcl.logging_rosout]: Publisher already registered for node name: 'robot.camera'."
         in warning
     )
+    log_output.remove_rosout_sink("robot.camera", second.append)
     logger.info("x")
-    log_output.remove_rosout_sink("robot.camera")
-    log_output.remove_rosout_sink("robot.camera")
+    for _ in range(2):
+        log_output.remove_rosout_sink("robot.camera", first.append)
+    logger.info("y")
     assert (len(first), len(second)) == (1, 0)
 
 

@@ -248,6 +248,17 @@ def test_a_node_that_is_dropped_leaves_the_graph(monkeypatch, middleware):
         executor.shutdown()
 
 
+def test_a_node_that_is_dropped_after_the_shutdown_leaves_its_logger_to_the_next(
+    monkeypatch, capfd
+):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    for _ in range(2):
+        with Context() as context:
+            Node("again", context=context)
+        gc.collect()
+    assert "Publisher already registered" not in capfd.readouterr().err
+
+
 def test_an_endpoint_that_is_kept_keeps_its_node(context):
     observer = Node("observer", context=context)
     received = []
