@@ -43,11 +43,6 @@ _TRANSITIONS = {
 }
 
 
-def state_name(state: int) -> str:
-    """Return the name of a state, for example ``EXECUTING``."""
-    return _NAMES[state]
-
-
 def next_state(state: int, event: GoalEvent) -> int:
     """Return the state that ``event`` leads to.
 
@@ -58,7 +53,7 @@ def next_state(state: int, event: GoalEvent) -> int:
     if following is None:
         raise RCLError(
             "Failed to update goal state: goal_handle attempted invalid transition from state "
-            f"{state_name(state)} with event {event.name}"
+            f"{_NAMES[state]} with event {event.name}"
         )
     return following
 

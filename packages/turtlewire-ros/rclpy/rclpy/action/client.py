@@ -100,7 +100,7 @@ class ClientGoalHandle:
 
         Another thread has to spin.
         """
-        return self._action_client._cancel_goal(self)
+        return self._action_client._block_for(self.cancel_goal_async())
 
     def cancel_goal_async(self) -> Future:
         """Ask the server to cancel it; a future of the answer (``CancelGoal.Response``)."""
@@ -111,7 +111,7 @@ class ClientGoalHandle:
 
         Another thread has to spin.
         """
-        return self._action_client._get_result(self)
+        return self._action_client._block_for(self.get_result_async())
 
     def get_result_async(self) -> Future:
         """Return a future of the response, which has ``status`` and ``result``."""
@@ -335,13 +335,10 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         """
         sent = self.send_goal_async(goal, feedback_callback, goal_uuid)
         handle = self._block_for(sent)
-        return self._get_result(handle) if handle.accepted else None
+        return handle.get_result() if handle.accepted else None
 
     def _block_for(self, future: Future) -> Any:
         return self._goal_client._block_for(future, None)
-
-    def _cancel_goal(self, goal_handle: ClientGoalHandle) -> Any:
-        return self._block_for(self._cancel_goal_async(goal_handle))
 
     def _cancel_goal_async(self, goal_handle: ClientGoalHandle) -> Future:
         if not isinstance(goal_handle, ClientGoalHandle):
@@ -349,9 +346,6 @@ class ActionClient(IntrospectedAction, Waitable, Generic[ActionT_co]):
         request = self._action_type.Impl.CancelGoalService.Request()
         request.goal_info.goal_id = goal_handle.goal_id
         return self._cancel_client.call_async(request)
-
-    def _get_result(self, goal_handle: ClientGoalHandle) -> Any:
-        return self._block_for(self._get_result_async(goal_handle))
 
     def _get_result_async(self, goal_handle: ClientGoalHandle) -> Future:
         if not isinstance(goal_handle, ClientGoalHandle):

@@ -136,14 +136,6 @@ def test_one_topic_with_two_types(node, capfd, monkeypatch):
     ]
 
 
-def test_a_client_of_another_type_than_the_service(node, capfd, monkeypatch):
-    monkeypatch.setattr(report, "_said", set())
-    node.create_service(AddTwoInts, "add", print)
-    node.create_client(Trigger, "add")
-    (said,) = (line for line in capfd.readouterr().err.splitlines() if "add" in line)
-    assert "service /add has the type example_interfaces/srv/AddTwoInts, but this" in said
-
-
 def test_a_client_of_another_type_than_the_action(node, capfd, monkeypatch):
     monkeypatch.setattr(report, "_said", set())
     ActionServer(node, RotateAbsolute, "turn", print)
