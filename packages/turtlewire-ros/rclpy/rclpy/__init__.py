@@ -131,12 +131,7 @@ class InitContextManager:
     def __enter__(self) -> Context:
         return self.context
 
-    def __exit__(
-        self,
-        exc_type: type[BaseException] | None,
-        exc_val: BaseException | None,
-        exc_tb: TracebackType | None,
-    ) -> None:
+    def __exit__(self, exc_type: object, exc_val: object, exc_tb: object) -> None:
         # The signal handlers serve every context: only the default one takes them along.
         if self.context is get_default_context():
             try_shutdown()

@@ -11,7 +11,6 @@ import time
 import warnings
 from collections.abc import Callable
 from enum import Enum
-from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.distro import LYRICAL, since
@@ -145,12 +144,7 @@ class JumpHandle:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        t: type[BaseException] | None,
-        v: BaseException | None,
-        tb: TracebackType | None,
-    ) -> None:
+    def __exit__(self, t: object, v: object, tb: object) -> None:
         self.unregister()
 
 

@@ -8,7 +8,7 @@ import rclpy
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.utilities import get_default_context, remove_ros_args, timeout_sec_to_nsec
 from std_msgs.msg import Int32
@@ -347,23 +347,16 @@ def test_helpers():
 
 
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
-def test_a_callback_may_shut_down_while_others_wait_for_it(monkeypatch, middleware):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
-    context = Context()
-    context.init(args=[])
-    node = Node("both", context=context)
+def test_a_callback_may_shut_down_while_others_wait_for_it(context, node, executor):
     got_there = []
     node.create_subscription(Int32, "number", got_there.append, 10)
     publisher = node.create_publisher(Int32, "number", 10)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
 
     def end():
         publisher.publish(Int32())
         publisher.wait_for_all_acked()
-        executor.spin_once(
-            timeout_sec=0.1
-        )  # finds the message, whose callback has to wait for this one
+        # Finds the message, whose callback has to wait for this one.
+        executor.spin_once(timeout_sec=0.1)
         context.shutdown()
 
     assert context.wait_for_graph(lambda: publisher.get_subscription_count() == 1, 60_000_000_000)

@@ -225,32 +225,28 @@ def gone(observer, name):
 
 
 @pytest.mark.parametrize("middleware", ["local", "rmw_cyclonedds_cpp"])
-def test_a_node_that_is_dropped_leaves_the_graph(monkeypatch, middleware):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
-    with Context() as context:
-        observer = Node("observer", context=context)
-        client = observer.create_client(Trigger, "serve")
-        executor = SingleThreadedExecutor(context=context)
+def test_a_node_that_is_dropped_leaves_the_graph(context):
+    observer = Node("observer", context=context)
+    client = observer.create_client(Trigger, "serve")
+    executor = SingleThreadedExecutor(context=context)
 
-        def use_a_node():
-            node = Node("dropped", context=context)
-            node.create_service(Trigger, "serve", lambda _, response: response)
-            node.create_timer(3600.0, lambda: None)
-            TransformListener(Buffer(), node)
-            executor.add_node(node)
-            executor.spin_once(timeout_sec=0)
-            executor.remove_node(node)
-            assert client.wait_for_service(60)
+    def use_a_node():
+        node = Node("dropped", context=context)
+        node.create_service(Trigger, "serve", lambda _, response: response)
+        node.create_timer(3600.0, lambda: None)
+        TransformListener(Buffer(), node)
+        executor.add_node(node)
+        executor.spin_once(timeout_sec=0)
+        executor.remove_node(node)
+        assert client.wait_for_service(60)
 
-        use_a_node()
-        assert gone(observer, "dropped")
-        assert not client.service_is_ready()
-        executor.shutdown()
+    use_a_node()
+    assert gone(observer, "dropped")
+    assert not client.service_is_ready()
+    executor.shutdown()
 
 
-def test_a_node_that_is_dropped_after_the_shutdown_leaves_its_logger_to_the_next(
-    monkeypatch, capfd
-):
+def test_a_node_that_is_dropped_after_the_shutdown_frees_its_logger(monkeypatch, capfd):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
     for _ in range(2):
         with Context() as context:

@@ -4,7 +4,6 @@ import pytest
 
 from builtin_interfaces.msg import Time as TimeMsg
 from rclpy.clock import Clock, ClockType, ROSClock
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import ReliabilityPolicy
@@ -123,16 +122,10 @@ def test_more_clocks_can_be_attached(node, executor, simulator):
     assert len(clock_subscriptions(node)) == 1
 
 
-def test_a_negative_time_is_left_out_and_said(context, capfd):
-    node = Node(
-        "simulated", context=context, parameter_overrides=[Parameter("use_sim_time", value=True)]
-    )
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    publisher = node.create_publisher(ClockMsg, "/clock", 1)
+def test_a_negative_time_is_left_out_and_said(node, executor, simulator, capfd):
+    assert use_sim_time(node, True).successful
     for seconds in (-5, 7):
-        publisher.publish(ClockMsg(clock=TimeMsg(sec=seconds)))
+        publish(simulator, seconds)
         executor.spin_once(timeout_sec=60)
     assert node.get_clock().now().seconds_nanoseconds() == (7, 0)
     assert "Ignoring a negative time on '/clock' (-5 s)" in capfd.readouterr().err
-    executor.shutdown()
