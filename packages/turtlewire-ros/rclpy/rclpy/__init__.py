@@ -60,7 +60,7 @@ module                                      contents
 
 from __future__ import annotations
 
-from types import ModuleType, TracebackType
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 # First, so that an early Ctrl-C also ends without a traceback.

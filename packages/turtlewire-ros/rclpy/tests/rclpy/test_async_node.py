@@ -166,33 +166,26 @@ async def test_a_callback_that_destroys_its_node_is_cancelled_at_its_next_await(
     assert log == ["after destroy_node", "cancelled"]
 
 
-def test_the_shutdown_of_the_context_ends_the_node_but_not_the_block(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+async def test_the_shutdown_of_the_context_ends_the_node_but_not_the_block(context):
     log = []
+    node = AsyncNode("tested", context=context)
+    started = asyncio.Event()
 
-    async def main(context):
-        node = AsyncNode("tested", context=context)
-        started = asyncio.Event()
+    async def tick():
+        started.set()
+        try:
+            await asyncio.Event().wait()
+        except asyncio.CancelledError:
+            log.append("callback cancelled")
+            raise
 
-        async def tick():
-            started.set()
-            try:
-                await asyncio.Event().wait()
-            except asyncio.CancelledError:
-                log.append("callback cancelled")
-                raise
-
-        node.create_timer(0.0, tick)
-        async with node:
-            await started.wait()
-            context.shutdown()
-            log.append("block goes on")
-            await turns()
-            log.append("block ends")
-
-    context = Context()
-    context.init()
-    run(main(context))
+    node.create_timer(0.0, tick)
+    async with node:
+        await started.wait()
+        context.shutdown()
+        log.append("block goes on")
+        await turns()
+        log.append("block ends")
     assert log == ["block goes on", "callback cancelled", "block ends"]
 
 

@@ -287,6 +287,14 @@ def test_a_waiting_async_callback_holds_its_group_but_nothing_else(node, executo
     assert order[3:] == ["goes on", "same group"]
 
 
+def noted_waits(executor):
+    """Return a list of the timeouts of the middleware's waits from now on."""
+    wait_set, waits = executor._rclpy_scheduler.wait._wait_set, []
+    wait_once = wait_set.wait
+    wait_set.wait = lambda timeout: waits.append(timeout) or wait_once(timeout)
+    return waits
+
+
 def test_a_blocked_subscription_costs_no_cpu(node, executor):
     gate = Future()
 
@@ -298,11 +306,7 @@ def test_a_blocked_subscription_costs_no_cpu(node, executor):
     publisher.publish(Int32())
     publisher.publish(Int32())
     executor.spin_once(timeout_sec=60)
-    waits = []
-    wait_once = executor._rclpy_scheduler.wait._wait_set.wait
-    executor._rclpy_scheduler.wait._wait_set.wait = lambda timeout: (
-        waits.append(timeout) or wait_once(timeout)
-    )
+    waits = noted_waits(executor)
     executor.spin_once(timeout_sec=0.2)
     assert len(waits) <= 3
 
@@ -732,11 +736,7 @@ def test_the_default_size_of_a_pool(context):
 
 
 def test_an_idle_executor_does_not_run(node, executor, spinning):
-    waits = []
-    wait_once = executor._rclpy_scheduler.wait._wait_set.wait
-    executor._rclpy_scheduler.wait._wait_set.wait = lambda timeout: (
-        waits.append(timeout) or wait_once(timeout)
-    )
+    waits = noted_waits(executor)
     spinning(executor)
     deadline = time.monotonic() + 60
     while not waits and time.monotonic() < deadline:

@@ -8,7 +8,6 @@ from geometry_msgs.msg import Twist, Vector3
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidTopicNameException
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import (
     DurabilityPolicy,
@@ -330,16 +329,13 @@ def test_wait_for_all_acked(context, node):
     publisher.assert_liveliness()
 
 
-def test_wait_for_message(context, node):
-    publisher = node.create_publisher(
-        Int32, "number", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    )
-    publisher.publish(Int32(data=6))
-    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    assert wait_for_message(Int32, node, "number", qos_profile=latched, time_to_wait=60) == (
-        True,
-        Int32(data=6),
-    )
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+def test_wait_for_message(node):
+    node.create_publisher(Int32, "number", LATCHED).publish(Int32(data=6))
+    came = wait_for_message(Int32, node, "number", qos_profile=LATCHED, time_to_wait=60)
+    assert came == (True, Int32(data=6))
     start = time.monotonic()
     assert wait_for_message(Int32, node, "silence", time_to_wait=0.05) == (False, None)
     assert wait_for_message(Int32, node, "silence", time_to_wait=0) == (False, None)
@@ -347,19 +343,13 @@ def test_wait_for_message(context, node):
     assert not any(each.topic_name in ("/number", "/silence") for each in node.subscriptions)
 
 
-def test_wait_for_message_in_a_callback(context, node):
-    publisher = node.create_publisher(
-        Int32, "number", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    )
-    publisher.publish(Int32(data=6))
-    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+def test_wait_for_message_in_a_callback(node, executor):
+    node.create_publisher(Int32, "number", LATCHED).publish(Int32(data=6))
     results = []
     node.create_guard_condition(
-        lambda: results.append(wait_for_message(Int32, node, "number", qos_profile=latched))
+        lambda: results.append(wait_for_message(Int32, node, "number", qos_profile=LATCHED))
     ).trigger()
-    with SingleThreadedExecutor(context=context) as executor:
-        executor.add_node(node)
-        executor.spin_once(timeout_sec=60)
+    executor.spin_once(timeout_sec=60)
     assert results == [(True, Int32(data=6))]
 
 
