@@ -14,10 +14,14 @@ from rclpy.parameter import Parameter
 from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 
 #: ROS 2's relative tolerance of comparisons with the ends and steps of a range of doubles.
 _REL_TOL = 1e-6
+#: The smallest and the largest integer that messages can hold.
+_INT64_MIN, _INT64_MAX = -(2**63), 2**63 - 1
 #: How the reason of a type conflict begins.
 WRONG_TYPE = "Wrong parameter type"
 
@@ -169,24 +173,28 @@ def refusal(
         )
     if not descriptor.dynamic_typing and descriptor.type != parameter.type_.value:
         return f"{WRONG_TYPE}, expected '{Parameter.Type(descriptor.type)}' got '{parameter.type_}'"
-    if parameter.type_ is Parameter.Type.INTEGER and descriptor.integer_range:
-        return _integer_refusal(parameter, descriptor.integer_range[0])
+    if parameter.type_ in {Parameter.Type.INTEGER, Parameter.Type.INTEGER_ARRAY}:
+        return _integer_refusal(parameter, descriptor.integer_range)
     if parameter.type_ is Parameter.Type.DOUBLE and descriptor.floating_point_range:
         return _double_refusal(parameter, descriptor.floating_point_range[0])
     return ""
 
 
-def _integer_refusal(parameter: Parameter, limits: IntegerRange) -> str:
+def _integer_refusal(parameter: Parameter, ranges: Sequence[IntegerRange]) -> str:
+    value, is_array = parameter.value, parameter.type_ is Parameter.Type.INTEGER_ARRAY
+    if not all(_INT64_MIN <= each <= _INT64_MAX for each in (value if is_array else [value])):
+        return _out_of_range(parameter, _INT64_MIN, _INT64_MAX)
+    if is_array or not ranges:
+        return ""
     # As in ROS 2, the limits come in either order, and both ends are valid even if the step does
     # not reach the upper one.
-    low, high = sorted((limits.from_value, limits.to_value))
-    value = parameter.value
+    low, high = sorted((ranges[0].from_value, ranges[0].to_value))
     if value in {low, high}:
         return ""
     if not low < value < high:
         return _out_of_range(parameter, low, high)
-    if limits.step and (value - low) % limits.step:
-        return _off_step(parameter, low, high, limits.step)
+    if ranges[0].step and (value - low) % ranges[0].step:
+        return _off_step(parameter, low, high, ranges[0].step)
     return ""
 
 

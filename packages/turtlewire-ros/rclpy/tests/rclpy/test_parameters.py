@@ -348,6 +348,21 @@ def test_integer_ranges(parameters, value, text):
 
 
 @pytest.mark.parametrize(
+    ("value", "is_refused"),
+    [(2**63, True), (2**63 - 1, False), (-(2**63), False), (-(2**63) - 1, True)],
+)
+def test_integers_that_no_message_can_hold_are_refused(parameters, value, is_refused):
+    text = f"Parameter a out of range. Min: {-(2**63)}, Max: {2**63 - 1}, value: "
+    parameters.declare_parameters("", [("a", 1), ("aa", [1])])
+    assert reason(parameters, "a", value).startswith(text) == is_refused
+    assert (reason(parameters, "aa", [0, value]) != "") == is_refused
+    if is_refused:
+        with pytest.raises(exceptions.InvalidParameterValueException, match="out of range"):
+            parameters.declare_parameter("b", value)
+        assert not parameters.has_parameter("b")
+
+
+@pytest.mark.parametrize(
     ("value", "is_a_step"), [(2, True), (4, False), (5, True), (9, False), (10, True), (11, True)]
 )
 def test_steps_count_from_the_start_of_a_range_and_its_end_is_always_valid(
