@@ -23,7 +23,6 @@ module                             contents
 `selection`                        choosing from a list in the terminal
 `cli`, `helpers`                   ``ros2`` called by programs; functions for extensions
 `command`, `verb`                  ROS 2's classes of commands and verbs
-`builtin`                          derives these classes from our commands and verbs
 `installed`                        finds entry points quickly
 `entry_points`, `plugin_system`    ROS 2's functions for entry points and extensions
 `extension`                        runs extensions of other packages

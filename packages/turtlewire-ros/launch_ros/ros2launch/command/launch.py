@@ -11,8 +11,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 from ros2cli.completion import files, packages
 
 if TYPE_CHECKING:
@@ -369,6 +368,5 @@ def print_description(description: LaunchDescription) -> int:
     return 0
 
 
-@command_of_module
-class LaunchCommand(CommandExtension):
+class LaunchCommand(ModuleCommand):
     """Run a launch file."""

@@ -8,8 +8,7 @@ import os
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 from ros2cli.completion import files
 
 if TYPE_CHECKING:
@@ -62,6 +61,5 @@ def main(args: argparse.Namespace) -> int:
         return run(args.parser, args, LaunchTestRunner)
 
 
-@command_of_module
-class TestCommand(CommandExtension):
+class TestCommand(ModuleCommand):
     """Run a launch test in its own domain."""

@@ -1,11 +1,9 @@
 """``ros2 action``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 
 VERB_GROUP = "ros2action.verb"
 
 
-@command_of_module
-class ActionCommand(CommandExtension):
+class ActionCommand(ModuleCommand):
     """List actions, and send goals."""

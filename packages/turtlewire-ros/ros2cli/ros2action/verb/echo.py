@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names, action_types
 from ros2cli.message_text import (
     DEFAULT_TRUNCATE_LENGTH,
@@ -177,6 +176,5 @@ def _say_that_nothing_is_published(action: str, interfaces: list[ActionInterface
     )
 
 
-@verb_of_module
 class EchoVerb(VerbExtension):
     """Show the goals, results, feedback and states of an action."""

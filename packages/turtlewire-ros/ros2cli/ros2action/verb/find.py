@@ -7,7 +7,6 @@ import argparse
 from ros2action.api import action_type_completer
 from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import discovered_graph
 from ros2cli.listing import count_argument, print_names_of_type
 
@@ -30,6 +29,5 @@ def main(args: argparse.Namespace) -> None:
     print_names_of_type(found, args.action_type, "action", args)
 
 
-@verb_of_module
 class FindVerb(VerbExtension):
     """List the actions of a type."""

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names
 from ros2cli.discovery import discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT, print_json, with_types
@@ -60,6 +59,5 @@ def _print_json(found: dict[str, NamesAndTypes], args: argparse.Namespace) -> No
     print_json(data)
 
 
-@verb_of_module
 class InfoVerb(VerbExtension):
     """Show who offers and may start an action."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2action.verb import VerbExtension
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT
 from ros2cli.listing import SHOW_TYPES, count_argument, print_names_and_types
@@ -22,6 +21,5 @@ def main(args: argparse.Namespace) -> None:
     print_names_and_types("action", found, args)
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List the actions."""

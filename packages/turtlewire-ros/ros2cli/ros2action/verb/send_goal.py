@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument, exclusive
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names, action_types, goal_values
 from ros2cli.helpers import unsigned_int as non_negative_int
 from ros2cli.node import NODE_NAME_PREFIX
@@ -217,6 +216,5 @@ def _status_name(status: int) -> str:
     return names.get(status, "UNKNOWN")
 
 
-@verb_of_module
 class SendGoalVerb(VerbExtension):
     """Start an action and wait for its end."""

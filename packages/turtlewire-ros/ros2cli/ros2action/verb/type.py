@@ -6,7 +6,6 @@ import argparse
 
 from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names
 from ros2cli.discovery import discovered_graph
 from ros2cli.listing import print_types
@@ -29,6 +28,5 @@ def main(args: argparse.Namespace) -> int:
     return print_types("action", args.action_name, known)
 
 
-@verb_of_module
 class TypeVerb(VerbExtension):
     """Show the type of an action."""

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = [
     "PLUGIN_SYSTEM_VERSION",
     "CommandExtension",
+    "ModuleCommand",
     "MutableString",
     "SuppressUsageOutput",
     "add_subparsers",
@@ -121,6 +122,27 @@ class CommandExtension:
             The exit status, the text of an error, or None.
         """
         raise NotImplementedError
+
+
+class ModuleCommand(CommandExtension):
+    """Base of commands whose module has a ``VERB_GROUP``, or ``ARGUMENTS`` and ``main``."""
+
+    def add_arguments(
+        self, parser: argparse.ArgumentParser, cli_name: str, *, argv: list[str] | None = None
+    ) -> None:
+        """Define the command line, with that of the verb in ``argv``."""
+        from ros2cli.main import define
+
+        define(parser, cli_name, argv or [], type(self).__module__)
+
+    def main(self, *, parser: argparse.ArgumentParser, args: Any) -> Any:
+        """Run the command; prints the help and returns 0 if a verb is missing."""
+        del parser
+        module = getattr(args, "module", None)
+        if module is None:
+            args.show_help()
+            return 0
+        return module.main(args)
 
 
 def get_command_extensions(

@@ -6,8 +6,7 @@ import argparse
 from typing import Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described, first_line
 
 __all__ = ["ARGUMENTS", "EXTENSION_POINT_GROUP_NAME", "ExtensionPointsCommand", "main"]
@@ -36,8 +35,7 @@ def _print(args: argparse.Namespace, name: str, description: str, module: str) -
         print(f"  module: {module}")
 
 
-@command_of_module
-class ExtensionPointsCommand(CommandExtension):
+class ExtensionPointsCommand(ModuleCommand):
     """List the kinds of commands and verbs."""
 
     def print_extension_point(self, args: argparse.Namespace, name: str, entry_point: Any) -> None:

@@ -6,8 +6,7 @@ import argparse
 from typing import Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described, first_line
 
 ARGUMENTS = (
@@ -37,8 +36,7 @@ def _print(args: argparse.Namespace, name: str, summary: str, module: str) -> No
         print(f"    module: {module}")
 
 
-@command_of_module
-class ExtensionsCommand(CommandExtension):
+class ExtensionsCommand(ModuleCommand):
     """List all commands and verbs."""
 
     def print_entry_point(self, args: argparse.Namespace, dist: Any, entry_point: Any) -> None:

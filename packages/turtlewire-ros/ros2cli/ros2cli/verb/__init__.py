@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from typing import Any
 
 from ros2cli.plugin_system import (
@@ -22,7 +23,10 @@ __all__ = [
 
 
 class VerbExtension:
-    """Base of all verbs; the first line of a verb's documentation is its line in the help."""
+    """Base of all verbs; the first line of a verb's documentation is its line in the help.
+
+    A verb has its own `add_arguments` and `main`, or its module has ``ARGUMENTS`` and ``main``.
+    """
 
     NAME: str | None = None
     EXTENSION_POINT_VERSION = "0.1"
@@ -37,6 +41,10 @@ class VerbExtension:
             parser: Parser of the verb.
             cli_name: The words before, for example ``ros2 topic``.
         """
+        from ros2cli import arguments
+
+        module = sys.modules[type(self).__module__]
+        arguments.add_arguments(parser, getattr(module, "ARGUMENTS", ()))
 
     def main(self, *, args: Any) -> Any:
         """Run the verb.
@@ -44,7 +52,7 @@ class VerbExtension:
         Returns:
             The exit status, the text of an error, or None.
         """
-        raise NotImplementedError
+        return sys.modules[type(self).__module__].main(args)
 
 
 def get_verb_extensions(name: str) -> dict[str, Any]:

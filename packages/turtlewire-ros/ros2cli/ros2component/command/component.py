@@ -1,11 +1,9 @@
 """``ros2 component``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 
 VERB_GROUP = "ros2component.verb"
 
 
-@command_of_module
-class ComponentCommand(CommandExtension):
+class ComponentCommand(ModuleCommand):
     """Containers of nodes: list them, load and unload nodes."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument, timeout_argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell_failed_call
@@ -57,6 +56,5 @@ def main(args: argparse.Namespace) -> int:
     return status
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List the containers and the nodes in them."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument, timeout_argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2component.options import COMPONENT_ARGUMENTS, container_node_names, load_request
@@ -43,6 +42,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class LoadVerb(VerbExtension):
     """Load a node into a container."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2component.options import COMPONENT_ARGUMENTS, load_request
 from ros2component.verb import VerbExtension
 
@@ -40,6 +39,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class StandaloneVerb(VerbExtension):
     """Run a node in its own container."""

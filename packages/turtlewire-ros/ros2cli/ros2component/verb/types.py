@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
 from ros2component.verb import VerbExtension
 
@@ -39,6 +38,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class TypesVerb(VerbExtension):
     """List the components that packages have registered."""

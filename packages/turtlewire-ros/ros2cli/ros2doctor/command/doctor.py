@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument, exclusive
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 from turtlewire.terminal.parser import seconds
 
 VERB_GROUP = "ros2doctor.verb"
@@ -72,8 +71,7 @@ def main(args: argparse.Namespace) -> int:
     return 1 if failed or count else 0
 
 
-@command_of_module
-class DoctorCommand(CommandExtension):
+class DoctorCommand(ModuleCommand):
     """Look for what is wrong with the setup and the traffic."""
 
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy.qos import QoSProfile
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.values import positive, positive_int
 from ros2doctor.verb import VerbExtension
@@ -76,7 +75,6 @@ def main(args: argparse.Namespace) -> None:
     HelloVerb().main(args=args)
 
 
-@verb_of_module
 class HelloVerb(VerbExtension):
     """Find out which hosts can hear each other."""
 

@@ -1,11 +1,9 @@
 """``ros2 interface``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 
 VERB_GROUP = "ros2interface.verb"
 
 
-@command_of_module
-class InterfaceCommand(CommandExtension):
+class InterfaceCommand(ModuleCommand):
     """Show the definitions of messages, services and actions."""

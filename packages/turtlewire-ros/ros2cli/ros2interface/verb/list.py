@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2interface.verb import VerbExtension
 
 TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
@@ -51,6 +50,5 @@ def print_actions() -> None:
     print_kind("action")
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List all interfaces."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interface_packages
 from ros2interface.verb import VerbExtension
 
@@ -34,6 +33,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class PackageVerb(VerbExtension):
     """List the interfaces of a package."""

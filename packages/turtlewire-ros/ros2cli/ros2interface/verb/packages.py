@@ -6,7 +6,6 @@ import argparse
 from collections.abc import Iterable
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2interface.verb import VerbExtension
 
 ARGUMENTS = (
@@ -32,6 +31,5 @@ def print_packages(packs: Iterable[str]) -> None:
         print(name)
 
 
-@verb_of_module
 class PackagesVerb(VerbExtension):
     """List the packages that have interfaces."""

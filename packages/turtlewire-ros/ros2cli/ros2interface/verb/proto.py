@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interfaces
 from ros2interface.verb import VerbExtension
 
@@ -33,6 +32,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class ProtoVerb(VerbExtension):
     """Show an interface as YAML to fill in."""

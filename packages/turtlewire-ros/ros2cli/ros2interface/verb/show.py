@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interfaces
 from ros2cli.helpers import interactive_select
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
@@ -196,6 +195,5 @@ def _field(field: Field) -> dict[str, Any]:
     return data
 
 
-@verb_of_module
 class ShowVerb(VerbExtension):
     """Show the definition of an interface."""

@@ -1,11 +1,9 @@
 """``ros2 lifecycle``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 
 VERB_GROUP = "ros2lifecycle.verb"
 
 
-@command_of_module
-class LifecycleCommand(CommandExtension):
+class LifecycleCommand(ModuleCommand):
     """Show and change the states of managed nodes."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument, timeout_argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2lifecycle.managed_nodes import DEFAULT_TIMEOUT_S, HIDDEN_ARGUMENT, managed_node_names
@@ -40,6 +39,5 @@ def main(args: argparse.Namespace) -> None:
         print(f"\tStart: {offered.start_state.label}\n\tGoal: {offered.goal_state.label}")
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List the transitions that a managed node offers."""

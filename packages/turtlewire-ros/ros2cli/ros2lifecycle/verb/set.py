@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument, timeout_argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
@@ -56,6 +55,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class SetVerb(VerbExtension):
     """Have a managed node change its state."""

@@ -1,11 +1,9 @@
 """``ros2 multicast``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 
 VERB_GROUP = "ros2multicast.verb"
 
 
-@command_of_module
-class MulticastCommand(CommandExtension):
+class MulticastCommand(ModuleCommand):
     """Find out whether this network passes multicast on."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.builtin import verb_of_module
 from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
 from ros2multicast.verb import VerbExtension
 
@@ -19,6 +18,5 @@ def main(args: argparse.Namespace) -> None:
     print(f"Received from {host}:{port}: '{data.decode('utf-8', 'backslashreplace')}'")
 
 
-@verb_of_module
 class ReceiveVerb(VerbExtension):
     """Wait for one datagram."""

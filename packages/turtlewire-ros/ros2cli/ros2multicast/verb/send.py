@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.values import unsigned_int
 from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
 from ros2multicast.verb import VerbExtension
@@ -25,6 +24,5 @@ def main(args: argparse.Namespace) -> None:
         group.send(b"Hello World!")
 
 
-@verb_of_module
 class SendVerb(VerbExtension):
     """Send one datagram."""

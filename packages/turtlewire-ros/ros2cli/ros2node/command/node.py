@@ -1,11 +1,9 @@
 """``ros2 node``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 
 VERB_GROUP = "ros2node.verb"
 
 
-@command_of_module
-class NodeCommand(CommandExtension):
+class NodeCommand(ModuleCommand):
     """List nodes, show what one of them offers."""

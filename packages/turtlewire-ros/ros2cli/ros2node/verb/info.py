@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import node_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT, print_json, with_types
@@ -113,6 +112,5 @@ def print_names_and_types(names_and_types: Iterable[tuple[str, list[str]]]) -> N
     print(*(f"    {name}: {', '.join(types)}" for name, types in names_and_types), sep="\n")
 
 
-@verb_of_module
 class InfoVerb(VerbExtension):
     """Show what a node publishes, subscribes to and offers."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph, hidden_node_name
 from ros2cli.json_lines import JSON_ARGUMENT, print_json_list
 from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
@@ -39,6 +38,5 @@ def main(args: argparse.Namespace) -> None:
         print_names(names, args)
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List the nodes."""

@@ -1,11 +1,9 @@
 """``ros2 param``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 
 VERB_GROUP = "ros2param.verb"
 
 
-@command_of_module
-class ParamCommand(CommandExtension):
+class ParamCommand(ModuleCommand):
     """Read and set parameters of nodes."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.builtin import verb_of_module
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
 from ros2param.options import NAME_ARGUMENT, node_arguments
@@ -27,6 +26,5 @@ def main(args: argparse.Namespace) -> None:
         tell(f"Deleting parameter failed{reason}{meant}")
 
 
-@verb_of_module
 class DeleteVerb(VerbExtension):
     """Delete a parameter."""

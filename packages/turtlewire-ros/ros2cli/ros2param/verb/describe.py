@@ -6,7 +6,6 @@ import argparse
 from typing import Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
 from ros2param.options import node_arguments, parameter_names
@@ -51,6 +50,5 @@ def _print(descriptor: Any) -> None:
         print(f"    Additional constraints: {descriptor.additional_constraints}")
 
 
-@verb_of_module
 class DescribeVerb(VerbExtension):
     """Show what a parameter is for, and its limits."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ros2cli.builtin import verb_of_module
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.node.direct import DirectNode
 from ros2param.options import node_arguments
@@ -50,7 +49,6 @@ def _plain(value: Any) -> Any:
     return list(value) if hasattr(value, "typecode") else value
 
 
-@verb_of_module
 class DumpVerb(VerbExtension):
     """Show all parameters of a node as a parameter file."""
 

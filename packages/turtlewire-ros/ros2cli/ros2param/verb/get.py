@@ -6,7 +6,6 @@ import argparse
 from typing import Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.helpers import interactive_select
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.node.direct import DirectNode
@@ -129,6 +128,5 @@ def _text(message: Any, args: argparse.Namespace, *, below: bool = False) -> str
     return f"\n  {text}" if below else text
 
 
-@verb_of_module
 class GetVerb(VerbExtension):
     """Show the values of parameters."""

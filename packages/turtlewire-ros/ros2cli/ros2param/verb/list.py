@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.json_lines import JSON_ARGUMENT, print_json, remark_printer
 from ros2cli.node.direct import DirectNode
 from ros2cli.values import regular_expression
@@ -92,6 +91,5 @@ def _print_json(node_name: str, names: list[str], numbers: Sequence[int]) -> Non
         print_json({"node": node_name, "parameter": name, **type_})
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List the parameters."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import print_set_results
@@ -37,6 +36,5 @@ def main(args: argparse.Namespace) -> None:
     print_set_results(parameters, results)
 
 
-@verb_of_module
 class LoadVerb(VerbExtension):
     """Set the parameters of a node from a file."""

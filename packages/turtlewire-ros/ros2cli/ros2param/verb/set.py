@@ -6,7 +6,6 @@ import argparse
 from typing import Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
 from ros2param.options import NAME_ARGUMENT, node_arguments, parameter_names
@@ -65,6 +64,5 @@ def _print(result: Any, done: str, tried: str, meant: str) -> None:
         tell(f"{tried} failed{reason}{meant}")
 
 
-@verb_of_module
 class SetVerb(VerbExtension):
     """Set parameters."""

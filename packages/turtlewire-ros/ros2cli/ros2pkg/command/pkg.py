@@ -1,11 +1,9 @@
 """``ros2 pkg``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 
 VERB_GROUP = "ros2pkg.verb"
 
 
-@command_of_module
-class PkgCommand(CommandExtension):
+class PkgCommand(ModuleCommand):
     """List and create packages."""

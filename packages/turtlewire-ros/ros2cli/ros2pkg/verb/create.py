@@ -7,7 +7,6 @@ import os
 import re
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files
 from ros2pkg import package_template
 from ros2pkg.verb import VerbExtension
@@ -128,6 +127,5 @@ def _write(folder: str, files: dict[str, str]) -> None:
             file.write(text)
 
 
-@verb_of_module
 class CreateVerb(VerbExtension):
     """Create a package."""

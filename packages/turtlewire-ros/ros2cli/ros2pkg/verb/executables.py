@@ -6,7 +6,6 @@ import argparse
 import os
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
 from ros2pkg.verb import VerbExtension
 
@@ -36,6 +35,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class ExecutablesVerb(VerbExtension):
     """List the executables of packages."""

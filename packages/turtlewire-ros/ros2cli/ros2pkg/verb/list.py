@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.builtin import verb_of_module
 from ros2pkg.verb import VerbExtension
 
 
@@ -16,6 +15,5 @@ def main(_args: argparse.Namespace) -> None:
         print(name)
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List the installed packages."""

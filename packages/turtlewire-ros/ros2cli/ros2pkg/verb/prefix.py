@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
 from ros2pkg.verb import VerbExtension
 
@@ -29,6 +28,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class PrefixVerb(VerbExtension):
     """Show the prefix that a package is installed in."""

@@ -6,7 +6,6 @@ import argparse
 import os
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import packages
 from ros2pkg.verb import VerbExtension
 
@@ -49,6 +48,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class XmlVerb(VerbExtension):
     """Show the package.xml of a package."""

@@ -9,8 +9,7 @@ import signal
 from argparse import REMAINDER
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 from ros2cli.completion import arguments_of_executable, executables, packages
 from ros2cli.helpers import interactive_select
 from ros2cli.selection import OPTIONAL
@@ -86,6 +85,5 @@ def run_and_tell(command: list[str]) -> int:
     return status
 
 
-@command_of_module
-class RunCommand(CommandExtension):
+class RunCommand(ModuleCommand):
     """Run an executable of a package."""

@@ -9,7 +9,6 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import request_values, service_names, service_types
 from ros2cli.json_lines import JSON_ARGUMENT, print_json, remark_printer
 from ros2cli.node import NODE_NAME_PREFIX
@@ -187,6 +186,5 @@ def _call(
         print(f"response:\n{response!r}\n")
 
 
-@verb_of_module
 class CallVerb(VerbExtension):
     """Call a service."""

@@ -6,7 +6,6 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import service_names, service_types
 from ros2cli.message_text import DEFAULT_TRUNCATE_LENGTH, TEXT_ARGUMENTS, event_text
 from ros2cli.qos import QOS_ARGUMENTS, with_options
@@ -82,6 +81,5 @@ def _type_of_service(graph: Graph, service: str) -> str | None:
     return types[0] if types else None
 
 
-@verb_of_module
 class EchoVerb(VerbExtension):
     """Print the requests and responses of a service that has introspection on."""

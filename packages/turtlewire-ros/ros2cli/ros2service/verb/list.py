@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT
 from ros2cli.listing import SHOW_TYPES, count_argument, hidden_argument, print_names_and_types
@@ -28,6 +27,5 @@ def main(args: argparse.Namespace) -> None:
     print_names_and_types("service", found, args)
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List the services."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import service_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT
@@ -30,6 +29,5 @@ def main(args: argparse.Namespace) -> int:
     return print_types("service", args.service_name, known, as_json=args.json)
 
 
-@verb_of_module
 class TypeVerb(VerbExtension):
     """Show the type of a service."""

@@ -1,7 +1,6 @@
 """``ros2 topic``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 from ros2cli.listing import hidden_argument
 
 VERB_GROUP = "ros2topic.verb"
@@ -10,6 +9,5 @@ VERB_GROUP = "ros2topic.verb"
 ARGUMENTS = (hidden_argument("topic"),)
 
 
-@command_of_module
-class TopicCommand(CommandExtension):
+class TopicCommand(ModuleCommand):
     """List topics, listen to one, publish to one."""

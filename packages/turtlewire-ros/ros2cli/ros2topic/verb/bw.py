@@ -11,7 +11,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.output import clear_terminal
@@ -210,6 +209,5 @@ def _texts(rate: float, count: int, *sizes: float) -> tuple[str, ...]:
     return (f"{text(rate)}/s", str(count), *map(text, sizes))
 
 
-@verb_of_module
 class BwVerb(VerbExtension):
     """Show the bandwidths of topics."""

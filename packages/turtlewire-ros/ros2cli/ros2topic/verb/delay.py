@@ -8,7 +8,6 @@ import threading
 from typing import Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
@@ -124,6 +123,5 @@ class ROSTopicDelay:
             print_json(dict(zip(_KEYS, (topic, *found), strict=True)))
 
 
-@verb_of_module
 class DelayVerb(VerbExtension):
     """Show the delay of a topic, by the stamps in its headers."""

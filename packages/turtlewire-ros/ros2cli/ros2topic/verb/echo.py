@@ -8,7 +8,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names, topic_types
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
@@ -284,7 +283,6 @@ def _lost(args: argparse.Namespace) -> Any:
     return SubscriptionEventCallbacks(message_lost=report)
 
 
-@verb_of_module
 class EchoVerb(VerbExtension):
     """Show the messages of a topic."""
 

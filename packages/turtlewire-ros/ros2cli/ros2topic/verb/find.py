@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import interfaces
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import count_argument, hidden_argument, print_names_of_type
@@ -32,6 +31,5 @@ def main(args: argparse.Namespace) -> None:
     print_names_of_type(found, args.topic_type, "msg", args)
 
 
-@verb_of_module
 class FindVerb(VerbExtension):
     """List the topics of a type."""

@@ -12,7 +12,6 @@ from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.output import clear_terminal
@@ -254,6 +253,5 @@ def _texts(
     )
 
 
-@verb_of_module
 class HzVerb(VerbExtension):
     """Show the rates of topics."""

@@ -6,7 +6,6 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
@@ -76,6 +75,5 @@ def _print_json(graph: Graph, name: str, types: list[str], *, verbose: bool) -> 
     print_json(data)
 
 
-@verb_of_module
 class InfoVerb(VerbExtension):
     """Show who publishes and subscribes to a topic."""

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.listing import (
@@ -75,7 +74,6 @@ def _print_verbose_json(graph: Graph, found: NamesAndTypes) -> None:
         )
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List the topics."""
 

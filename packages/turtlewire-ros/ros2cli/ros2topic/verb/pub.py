@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros2cli.arguments import argument, exclusive
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files, message_values, topic_names, topic_types
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.output import tell
@@ -364,6 +363,5 @@ def _loop(direct: DirectNode, sender: Any, plan: _Plan) -> None:
     direct.node.destroy_timer(timer)
 
 
-@verb_of_module
 class PubVerb(VerbExtension):
     """Publish messages to a topic."""

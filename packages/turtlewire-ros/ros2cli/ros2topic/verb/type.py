@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import topic_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import print_types
@@ -33,6 +32,5 @@ def main(args: argparse.Namespace) -> int:
     return 0 if name is None else print_types("topic", name, known)
 
 
-@verb_of_module
 class TypeVerb(VerbExtension):
     """Show the type of a topic."""

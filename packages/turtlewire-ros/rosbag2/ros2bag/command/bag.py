@@ -1,11 +1,9 @@
 """``ros2 bag``."""
 
-from ros2cli.builtin import command_of_module
-from ros2cli.command import CommandExtension
+from ros2cli.command import ModuleCommand
 
 VERB_GROUP = "ros2bag.verb"
 
 
-@command_of_module
-class BagCommand(CommandExtension):
+class BagCommand(ModuleCommand):
     """Look at recorded messages."""

@@ -20,7 +20,6 @@ from ros2bag.options import (
 )
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.values import unsigned_int
 
@@ -63,6 +62,5 @@ def main(args: argparse.Namespace) -> None:
     Player().burst(bags_to_play(args), options, args.num_messages)
 
 
-@verb_of_module
 class BurstVerb(VerbExtension):
     """Publish the first messages of a bag at once."""

@@ -7,7 +7,6 @@ import argparse
 from ros2bag.options import INPUT, existing_file
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument, exclusive
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import files
 
 ARGUMENTS = (
@@ -45,6 +44,5 @@ def main(args: argparse.Namespace) -> None:
     bag_rewrite(inputs, args.output_options)
 
 
-@verb_of_module
 class ConvertVerb(VerbExtension):
     """Write the messages of bags into others."""

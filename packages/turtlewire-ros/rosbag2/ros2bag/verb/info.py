@@ -7,7 +7,6 @@ import argparse
 from ros2bag.options import BAG_PATH, STORAGE
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 
 ARGUMENTS = (
     BAG_PATH,
@@ -49,6 +48,5 @@ def _tell_of_other_encodings(path: str) -> None:
             tell(foreign)
 
 
-@verb_of_module
 class InfoVerb(VerbExtension):
     """Show what a bag holds."""

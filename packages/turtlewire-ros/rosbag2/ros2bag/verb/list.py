@@ -6,7 +6,6 @@ import argparse
 
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 
 _PLUGINS = {
     "storage": {
@@ -33,6 +32,5 @@ def main(args: argparse.Namespace) -> None:
             print(f"\t{what}")
 
 
-@verb_of_module
 class ListVerb(VerbExtension):
     """List the storages and compressions that can be used."""

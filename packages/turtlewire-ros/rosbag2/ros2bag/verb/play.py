@@ -23,7 +23,6 @@ from ros2bag.options import (
 )
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument, exclusive
-from ros2cli.builtin import verb_of_module
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.values import unsigned_int
 
@@ -229,7 +228,6 @@ def _play_options(args: argparse.Namespace) -> PlayOptions:
     )
 
 
-@verb_of_module
 class PlayVerb(VerbExtension):
     """Publish the messages of a bag at their times."""
 

@@ -22,7 +22,6 @@ from ros2bag.options import (
 from ros2bag.verb import VerbExtension
 from ros2cli import arguments
 from ros2cli.arguments import argument, exclusive
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import action_names, files, message_types, service_names, topic_names
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.values import positive_int, unsigned_int
@@ -444,6 +443,5 @@ def _record_options(args: argparse.Namespace) -> RecordOptions:
     )
 
 
-@verb_of_module
 class RecordVerb(VerbExtension):
     """Record topics and service events into a bag."""

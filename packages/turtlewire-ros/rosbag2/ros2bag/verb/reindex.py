@@ -9,7 +9,6 @@ import time
 from ros2bag.options import STORAGE, bag_path
 from ros2bag.verb import VerbExtension
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.completion import folders
 
 ARGUMENTS = (
@@ -35,6 +34,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class ReindexVerb(VerbExtension):
     """Rebuild the metadata of a bag, for example after a recorder was killed."""

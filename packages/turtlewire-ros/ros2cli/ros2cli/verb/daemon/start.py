@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2cli.builtin import verb_of_module
 from ros2cli.verb.daemon import VerbExtension
 
 _START_S = 10.0
@@ -31,6 +30,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-@verb_of_module
 class StartVerb(VerbExtension):
     """Start the daemon, which answers programs; the verbs need none."""

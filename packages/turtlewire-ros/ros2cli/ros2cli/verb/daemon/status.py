@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.builtin import verb_of_module
 from ros2cli.verb.daemon import VerbExtension
 
 
@@ -15,6 +14,5 @@ def main(args: argparse.Namespace) -> None:
     print(f"The daemon is {'' if is_daemon_running(args) else 'not '}running")
 
 
-@verb_of_module
 class StatusVerb(VerbExtension):
     """Show if the daemon is running."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.builtin import verb_of_module
 from ros2cli.verb.daemon import VerbExtension
 
 _END_S = 10.0
@@ -18,6 +17,5 @@ def main(args: argparse.Namespace) -> None:
     print("The daemon has been stopped" if stopped else "The daemon is not running")
 
 
-@verb_of_module
 class StopVerb(VerbExtension):
     """Stop the daemon."""
