@@ -50,13 +50,14 @@ class OpaqueCoroutine(Action):
     def execute(self, context: LaunchContext) -> None:
         assert context.asyncio_loop is not None
         args = self._args if self._ignore_context else (context, *self._args)
-        self._future = context.asyncio_loop.create_task(self._coroutine(*args, **self._kwargs))
-        context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
+        task = context.asyncio_loop.create_task(self._coroutine(*args, **self._kwargs))
+
+        def cancel(*_: object) -> None:
+            task.cancel()
+
+        context.register_event_handler(OnShutdown(on_shutdown=cancel))
+        self._future = task
 
     def get_asyncio_future(self) -> asyncio.Task[None] | None:
         """Done when it has returned."""
         return self._future
-
-    def _on_shutdown(self, *_: Any) -> None:
-        if self._future is not None:
-            self._future.cancel()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch import logging
@@ -69,10 +69,9 @@ class TimerAction(Action):
         )
         self._cancel_on_shutdown = normalize_to_list_of_substitutions(text)
         self._completed: asyncio.Future[None] | None = None
-        self._timer: Any = None
+        # An action of an event handler is visited at each event.
+        self._timers: dict[asyncio.Future[None], Any] = {}
         self._canceled = False
-        self._locals: dict[str, Any] = {}
-        self._scope: list[LaunchDescriptionEntity] | None = None
         self._logger = logging.get_logger("launch.timer_action")
 
     @classmethod
@@ -109,61 +108,73 @@ class TimerAction(Action):
         assert context.asyncio_loop is not None
         if self._canceled or context.is_shutdown:
             return
-        loop = context.asyncio_loop
-        self._locals = context.get_locals_as_dict()
-        if context.configuration_scopes.depth:  # the group will have ended by then
-            self._scope = _beginning_of_scope(context)
-        self._completed = loop.create_future()
-        handler = EventHandler(matcher=self._is_mine, entities=lambda _, inner: self.handle(inner))
-        context.register_event_handler(handler)
-        context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
-        self._timer = self._start_time(context, loop)
+        event, completed = TimerEvent(timer_action=self), context.asyncio_loop.create_future()
+        due = EventHandler(
+            matcher=lambda each: each is event, entities=self._later(context), handle_once=True
+        )
+        end = OnShutdown(on_shutdown=self._on_shutdown)
+        for handler in (due, end):
+            context.register_event_handler(handler)
+
+        def expire() -> None:
+            if not completed.done():
+                # Before the future is done, so that the launch does not end between the two.
+                context.emit_event_sync(event)
+                completed.set_result(None)
+
+        self._completed = completed
+        self._timers[completed] = self._start_time(context, context.asyncio_loop, expire)
+        completed.add_done_callback(lambda _: context.unregister_event_handler(end))
+        completed.add_done_callback(self._timers.pop)
+
+    def _later(
+        self, context: LaunchContext
+    ) -> Callable[[Event, LaunchContext], list[LaunchDescriptionEntity]]:
+        """Return a function that returns the actions, which then find the values of now.
+
+        In a group with its own scope they find what the group had set, as without the timer.
+        """
+        values = context.get_locals_as_dict()
+        # The group will have ended by then.
+        scope = _beginning_of_scope(context) if context.configuration_scopes.depth else []
+
+        def actions(_event: Event, later: LaunchContext) -> list[LaunchDescriptionEntity]:
+            later.extend_locals(values)
+            end = [PopEnvironment(), PopLaunchConfigurations()] if scope else []
+            return [*scope, *self.handle(later), *end]
+
+        return actions
 
     def seconds(self, context: LaunchContext) -> float:
         """Return the period."""
         return float(perform_substitutions(context, self._period))
 
-    def _start_time(self, context: LaunchContext, loop: asyncio.AbstractEventLoop) -> Any:
+    def _start_time(
+        self, context: LaunchContext, loop: asyncio.AbstractEventLoop, expire: Callable[[], None]
+    ) -> Any:
         """Start the timer; the returned object has a method ``cancel``."""
-        return loop.call_later(self.seconds(context), self._expire, context)
+        return loop.call_later(self.seconds(context), expire)
 
     def cancel(self) -> None:
         """Drop the actions, unless they were visited already."""
         self._canceled = True
-        if self._timer is not None:
-            self._timer.cancel()
-        if self._completed is not None and not self._completed.done():
-            self._completed.set_result(None)
+        for completed, timer in self._timers.items():
+            timer.cancel()
+            if not completed.done():
+                completed.set_result(None)
 
     def handle(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Return the actions; called when the period has passed.
-
-        In a group with its own scope they find what the group had set, as without the timer.
-        """
-        context.extend_locals(self._locals)
-        if self._scope is None:
-            return self._actions
-        return [*self._scope, *self._actions, PopEnvironment(), PopLaunchConfigurations()]
+        """Return the actions; called when the period has passed."""
+        del context
+        return self._actions
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
         """Done when the period has passed or the timer is cancelled."""
         return self._completed
 
-    def _is_mine(self, event: Event) -> bool:
-        return isinstance(event, TimerEvent) and event.timer_action is self
-
-    def _expire(self, context: LaunchContext) -> None:
-        if self._completed is not None and not self._completed.done():
-            # Before the future is done, so that the launch does not end between the two.
-            context.emit_event_sync(TimerEvent(timer_action=self))
-            self._completed.set_result(None)
-
     def _on_shutdown(self, _event: Event, context: LaunchContext) -> None:
-        if (
-            self._completed is not None
-            and not self._completed.done()
-            and evaluate_condition_expression(context, self._cancel_on_shutdown)
-        ):
+        is_running = any(not completed.done() for completed in self._timers)
+        if is_running and evaluate_condition_expression(context, self._cancel_on_shutdown):
             self._logger.debug("canceling %s because of shutdown", self)
             self.cancel()
 

@@ -253,8 +253,9 @@ def test_coroutines_run_until_the_launch_ends(launch):
             raise
 
     endless = OpaqueCoroutine(coroutine=coroutine, args=["a"], ignore_context=True)
-    assert launch(endless, TimerAction(period=0.0, actions=[Shutdown()])).status == 0
-    assert seen == ["a", "cancelled"]
+    again = TimerAction(period=0.0, actions=[endless, Shutdown()])
+    assert launch(endless, again).status == 0
+    assert seen == ["a", "a", "cancelled", "cancelled"]
     with pytest.raises(TypeError, match="expected a coroutine function"):
         OpaqueCoroutine(coroutine=print)
 
@@ -298,6 +299,21 @@ def test_a_timer_in_a_group_keeps_what_the_group_set(launch, monkeypatch):
     assert outcome.messages == [
         f"it is {value}" for value in ("none", "green", "inside", "none", "red", "red", "-")
     ]
+
+
+def test_each_visit_of_a_timer_has_its_own_time_and_values(launch):
+    timer = TimerAction(period=0.01, actions=[show()])
+    outcome = launch(
+        GroupAction([SetLaunchConfiguration("colour", "red"), timer]),
+        GroupAction([SetLaunchConfiguration("colour", "green"), timer]),
+        TimerAction(period=0.5, actions=[timer]),
+    )
+    assert outcome.messages == ["it is red", "it is green", "it is none"]
+
+
+def test_the_end_cancels_each_visit_of_a_timer(launch):
+    timer = TimerAction(period=100.0, actions=[LogInfo(msg="never")])
+    assert launch(timer, timer, TimerAction(period=0.0, actions=[Shutdown()])).messages == []
 
 
 def test_the_end_cancels_timers_unless_told_otherwise(launch):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from launch.actions import TimerAction
@@ -30,7 +31,9 @@ class ROSTimer(TimerAction):
         **kwargs: See :class:`launch.actions.TimerAction`.
     """
 
-    def _start_time(self, context: LaunchContext, loop: asyncio.AbstractEventLoop) -> Any:
+    def _start_time(
+        self, context: LaunchContext, loop: asyncio.AbstractEventLoop, expire: Callable[[], None]
+    ) -> Any:
         from rclpy.parameter import Parameter
 
         node = get_ros_node(context)
@@ -38,13 +41,13 @@ class ROSTimer(TimerAction):
         if ("use_sim_time", True) in global_parameters(context):
             node.set_parameters([Parameter("use_sim_time", value=True)])
 
-        def expire() -> None:
+        def end() -> None:
             timer.cancel()
             # The timer runs on the thread of the launch's node, but actions belong to the event
             # loop.
-            loop.call_soon_threadsafe(self._expire, context)
+            loop.call_soon_threadsafe(expire)
 
-        timer = node.create_timer(self.seconds(context), expire)
+        timer = node.create_timer(self.seconds(context), end)
         return timer
 
 
