@@ -8,8 +8,6 @@ import sys
 from collections import OrderedDict
 from typing import Any
 
-from ros2cli.interface_names import interface_names
-
 _TAKES_FRAMES = {("tf2_ros", "tf2_echo"), ("tf2_ros", "tf2_monitor")}
 
 
@@ -30,6 +28,19 @@ def executables_of(package: str) -> list[str]:
     from turtlewire_ros.executables import executable_paths
 
     return [os.path.basename(path) for path in executable_paths(package) or ()]
+
+
+def interface_names(kind: str = "") -> list[str]:
+    """Full names of all interfaces, sorted; ``kind`` limits them to msg, srv or action."""
+    from turtlewire import msg
+
+    return sorted(
+        f"{package}/{part}/{name}"
+        for package, parts in msg.interfaces().items()
+        for part, names in parts.items()
+        if part == kind or not kind
+        for name in names
+    )
 
 
 def interface_packages(**_: Any) -> list[str]:

@@ -7,9 +7,17 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from ros2cli.output import tell
 from ros2cli.values import unsigned_int as _unsigned_int
+from turtlewire.distro import LYRICAL, since
+
+if TYPE_CHECKING:
+    from turtlewire.wire.base import Graph
+
+#: The number of words, for argparse, of an argument that can be chosen: at most one, or one.
+OPTIONAL = "?" if since(LYRICAL) else None
 
 _NO_DISCOVERY = """\
 Warning: ROS_AUTOMATIC_DISCOVERY_RANGE=OFF with no ROS_STATIC_PEERS configured.
@@ -31,7 +39,6 @@ def check_discovery_configuration() -> None:
 
 @functools.cache
 def _check_discovery() -> None:
-    from ros2cli.output import tell
     from turtlewire.wire.environment import Range, discovery
 
     chosen = discovery()
@@ -80,8 +87,6 @@ def interactive_select(items: Iterable[str], prompt: str = "Select an item:") ->
     """
     import subprocess
 
-    from ros2cli.output import tell
-
     if sys.stdin is None or not sys.stdin.isatty():
         tell("Error: Interactive selection requires a TTY terminal.")
         return None
@@ -97,6 +102,27 @@ def interactive_select(items: Iterable[str], prompt: str = "Select an item:") ->
         )
         return None
     return done.stdout.rstrip("\n") or None
+
+
+def select_topic(graph: Graph, prompt: str) -> str | None:
+    """Let the user choose a topic; returns None without topics or without a choice."""
+    from ros2cli.graph import topics
+
+    return _select("topics", [name for name, _ in topics(graph)], prompt)
+
+
+def select_node(graph: Graph, prompt: str) -> str | None:
+    """Let the user choose a node; returns None without nodes or without a choice."""
+    from ros2cli.graph import node_names
+
+    return _select("nodes", list(dict.fromkeys(node_names(graph))), prompt)
+
+
+def _select(kind: str, names: list[str], prompt: str) -> str | None:
+    if not names:
+        tell(f"No {kind} available to select from.")
+        return None
+    return interactive_select(names, prompt)
 
 
 def unsigned_int(string: str) -> int:

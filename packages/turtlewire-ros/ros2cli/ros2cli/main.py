@@ -14,7 +14,7 @@ from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from ros2cli.installed import declared, first_line, summary
+from ros2cli.entry_points import declared, first_line, summary
 from turtlewire.program import program
 from turtlewire.terminal.parser import INVALID_CHOICE, SuggestingParser
 
@@ -130,7 +130,7 @@ def _add_choices(
     entries = declared(group_name, chosen)
     others: dict[str, object] = {}
     if not all(entry.is_own for entry in entries.values()):
-        from ros2cli.extension import extensions_of_others
+        from ros2cli.plugin_system import extensions_of_others
 
         others = extensions_of_others(group_name, entries, chosen)
     # An option before the chosen word may be one for the help, and shells show the lines as well.
@@ -157,7 +157,7 @@ def _add_choices(
             continue
         rest = words[words.index(name) + 1 :]
         if name in others:
-            from ros2cli.extension import define_extension
+            from ros2cli.plugin_system import define_extension
 
             define_extension(others[name], sub, f"{prog} {name}", rest)
         else:
@@ -189,7 +189,7 @@ def define(parser: argparse.ArgumentParser, prog: str, words: list[str], module_
     module = import_module(module_name)
     add_arguments(parser, getattr(module, "ARGUMENTS", ()))
     if hasattr(module, "OPTION_GROUP"):
-        from ros2cli.extension import define_options
+        from ros2cli.plugin_system import define_options
 
         define_options(module.OPTION_GROUP, parser, prog, words)
     if hasattr(module, "main"):

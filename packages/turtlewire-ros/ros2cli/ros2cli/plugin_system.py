@@ -1,22 +1,24 @@
-"""Extensions: their versions, and instances of all in a group."""
+"""Extensions: their versions, instances of all in a group, and how the command line runs them."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ros2cli.entry_points import load_entry_points
-from turtlewire.plugins import (
-    PluginException,
-    get_upper_bound_caret_version,
-    satisfies_version,
-)
+from ros2cli.entry_points import declared, load_entry_points
+from turtlewire.plugins import PluginException, get_upper_bound_caret_version, satisfies_version
+
+if TYPE_CHECKING:
+    from turtlewire.plugins import Entry
 
 __all__ = [
     "PLUGIN_SYSTEM_VERSION",
     "PluginException",
     "call_add_arguments",
+    "define_extension",
+    "define_options",
+    "extensions_of_others",
     "get_upper_bound_caret_version",
     "instantiate_extensions",
     "named_extensions",
@@ -90,3 +92,65 @@ def call_add_arguments(
 
     takes_argv = "argv" in inspect.signature(extension.add_arguments).parameters
     extension.add_arguments(parser, cli_name, **({"argv": argv} if takes_argv else {}))
+
+
+class _Runner:
+    """Stands for the module of a verb: `main` runs the extension."""
+
+    #: As in ROS 2, extensions are responsible for their own output.
+    PASSES_COLOURS_ON = True
+
+    def __init__(self, extension: Any, parser: argparse.ArgumentParser) -> None:
+        self._extension = extension
+        self._parser = parser
+
+    def main(self, args: argparse.Namespace) -> Any:
+        """Run it; a command gets its parser, a verb does not."""
+        import inspect
+
+        if "parser" in inspect.signature(self._extension.main).parameters:
+            return self._extension.main(parser=self._parser, args=args)
+        return self._extension.main(args=args)
+
+
+def extensions_of_others(
+    group: str, entries: dict[str, Entry], chosen: str | None
+) -> dict[str, Any]:
+    """Return extensions by name; print one line on stderr for each that cannot be loaded.
+
+    Args:
+        group: For example ``ros2topic.verb``.
+        entries: The entry points of the group.
+        chosen: Name of the only one to load; the others are None. None loads all.
+    """
+    names = {name for name, entry in entries.items() if not entry.is_own}
+    left_out = set(entries) - (names if chosen is None else names & {chosen})
+    found = named_extensions(group, left_out)
+    return found if chosen is None else {**dict.fromkeys(names - {chosen}), **found}
+
+
+def define_extension(
+    extension: Any, parser: argparse.ArgumentParser, prog: str, words: list[str]
+) -> None:
+    """Define the command line of an extension."""
+    call_add_arguments(extension, parser, prog, words)
+    parser.set_defaults(module=_Runner(extension, parser), parser=parser)
+
+
+def define_options(
+    group: str, parser: argparse.ArgumentParser, prog: str, words: list[str]
+) -> None:
+    """Define the options that other packages add to a command.
+
+    Args:
+        group: Group of their entry points, for example ``ros2launch.option``.
+        parser: Parser of the command.
+        prog: The words before.
+        words: The words after ``prog``.
+    """
+    if not declared(group):
+        return
+    extensions = named_extensions(group)
+    for extension in extensions.values():
+        call_add_arguments(extension, parser, prog, words)
+    parser.set_defaults(option_extensions=extensions)

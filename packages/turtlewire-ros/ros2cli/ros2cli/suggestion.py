@@ -40,7 +40,7 @@ def interface_meant(name: str, kind: str = "") -> str:
     """
     import difflib
 
-    from ros2cli.interface_names import interface_names
+    from ros2cli.completion import interface_names
 
     if line := source_meant(name):
         return line
@@ -69,7 +69,7 @@ def source_meant(name: str) -> str:
 
 def say_interface_meant(name: str, kind: str) -> None:
     """Print `interface_meant` to stderr, unless there is an interface of that name."""
-    from ros2cli.interface_names import interface_names
+    from ros2cli.completion import interface_names
 
     near = "" if name in interface_names(kind) else interface_meant(name, kind)
     if near:

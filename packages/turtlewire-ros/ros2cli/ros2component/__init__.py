@@ -1,12 +1,11 @@
 """The command ``ros2 component``, and its functions for programs and extensions.
 
-============  =====================================
+============  =============================================
 module        contents
-============  =====================================
+============  =============================================
 `api`         components, and those in containers
 `command`     the command ``ros2 component``
 `verb`        its verbs
-`options`     the options that describe a component
-`containers`  calls to containers of nodes
-============  =====================================
+`containers`  the options of verbs, and calls to containers
+============  =============================================
 """

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ros2cli.node.direct import DirectNode
-from ros2component.containers import LIST_TIMEOUT_S
+from ros2component.containers import COMPONENT_ARGUMENTS, LIST_TIMEOUT_S, ask, container_names
 
 if TYPE_CHECKING:
     import subprocess
@@ -54,8 +54,6 @@ def get_registered_component_types() -> list[tuple[str, list[str]]]:
 
 def find_container_node_names(*, node: Any, node_names: Sequence[NodeName]) -> list[NodeName]:
     """Return the names of the component containers."""
-    from ros2component.containers import container_names
-
     known = container_names(DirectNode.around(node).graph)
     return [name for name in node_names if name.full_name in known]
 
@@ -71,7 +69,6 @@ def get_components_in_container(
         timeout: Seconds to wait for its answer; None waits while it exists.
     """
     from composition_interfaces.srv import ListNodes
-    from ros2component.containers import ask
 
     try:
         answer = ask(
@@ -136,7 +133,6 @@ def load_component_into_container(
         RuntimeError: The container cannot load it, or does not answer.
     """
     from composition_interfaces.srv import LoadNode
-    from ros2component.containers import ask
 
     request = LoadNode.Request(
         package_name=package_name,
@@ -174,7 +170,6 @@ def unload_component_from_container(
         RuntimeError: The container does not answer.
     """
     from composition_interfaces.srv import UnloadNode
-    from ros2component.containers import ask
 
     direct = DirectNode.around(node)
     for uid in component_uids:
@@ -188,7 +183,6 @@ def unload_component_from_container(
 def add_component_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that describe a component."""
     from ros2cli.arguments import add_arguments
-    from ros2component.options import COMPONENT_ARGUMENTS
 
     add_arguments(parser, COMPONENT_ARGUMENTS)
 
@@ -214,8 +208,6 @@ def container_node_name_completer(
     prefix: str, parsed_args: argparse.Namespace, **kwargs: Any
 ) -> list[str]:
     """Return the full names of the containers there are now."""
-    from ros2component.containers import container_names
-
     with DirectNode(parsed_args) as node:
         return container_names(DirectNode.around(node).graph)
 

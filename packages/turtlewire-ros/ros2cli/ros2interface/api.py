@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from ros2cli import completion
-from ros2cli.interface_names import interface_names, prototype
 
 
 def interface_to_yaml(identifier: str) -> str:
@@ -19,12 +18,20 @@ def interface_to_yaml(identifier: str) -> str:
         ModuleNotFoundError: The package is unknown.
         AttributeError: The package has no such interface.
     """
-    return prototype(identifier)
+    from rosidl_runtime_py import message_to_yaml
+    from rosidl_runtime_py.utilities import get_interface, is_action, is_service
+
+    interface = get_interface(identifier)
+    if is_service(interface):
+        interface = interface.Request
+    elif is_action(interface):
+        interface = interface.Goal
+    return message_to_yaml(interface())
 
 
 def get_all_interface_names() -> list[str]:
     """Return the full names of all interfaces."""
-    return interface_names()
+    return completion.interface_names()
 
 
 def package_name_completer(**kwargs: Any) -> list[str]:

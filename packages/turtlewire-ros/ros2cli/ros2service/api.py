@@ -6,7 +6,7 @@ import argparse
 from typing import Any
 
 from ros2cli import completion
-from ros2cli.interface_names import interface_names
+from ros2cli.completion import interface_names
 from ros2cli.node.direct import DirectNode
 
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument
 from ros2cli.completion import topic_names
+from ros2cli.helpers import OPTIONAL, select_topic
 from ros2cli.json_lines import remark_printer
 from ros2cli.qos import asked_for, with_options
-from ros2cli.selection import OPTIONAL, select_topic
 
 if TYPE_CHECKING:
     from ros2cli.node.direct import DirectNode

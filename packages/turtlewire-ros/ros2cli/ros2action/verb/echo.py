@@ -9,12 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ros2action.verb import VerbExtension
 from ros2cli.arguments import argument
 from ros2cli.completion import action_names, action_types
-from ros2cli.message_text import (
-    DEFAULT_TRUNCATE_LENGTH,
-    TEXT_ARGUMENTS,
-    event_text,
-    message_text,
-)
+from ros2cli.message_text import DEFAULT_TRUNCATE_LENGTH, TEXT_ARGUMENTS, event_text, message_text
 from ros2cli.output import tell
 from ros2cli.qos import QOS_ARGUMENTS, asked_for, matching_publishers, with_options
 

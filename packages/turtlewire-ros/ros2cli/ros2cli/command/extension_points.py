@@ -7,7 +7,7 @@ from typing import Any
 
 from ros2cli.arguments import argument
 from ros2cli.command import ModuleCommand
-from ros2cli.installed import EXTENSION_POINT_GROUP_NAME, described, first_line
+from ros2cli.entry_points import EXTENSION_POINT_GROUP_NAME, described, first_line
 
 __all__ = ["ARGUMENTS", "EXTENSION_POINT_GROUP_NAME", "ExtensionPointsCommand", "main"]
 

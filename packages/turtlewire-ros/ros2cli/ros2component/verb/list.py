@@ -8,8 +8,13 @@ from ros2cli.arguments import argument, timeout_argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell_failed_call
-from ros2component.containers import LIST_TIMEOUT_S
-from ros2component.options import container_node_names
+from ros2component.containers import (
+    LIST_TIMEOUT_S,
+    ask,
+    container_names,
+    container_node_names,
+    require_container,
+)
 from ros2component.verb import VerbExtension
 
 ARGUMENTS = (
@@ -30,7 +35,6 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> int:
     """Print the containers with number and name of each node in them; 1 if one did not answer."""
     from composition_interfaces.srv import ListNodes
-    from ros2component.containers import ask, container_names, require_container
 
     status = 0
     with DirectNode(args) as direct:

@@ -7,7 +7,13 @@ import argparse
 from ros2cli.arguments import argument, timeout_argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
-from ros2component.options import COMPONENT_ARGUMENTS, container_node_names, load_request
+from ros2component.containers import (
+    COMPONENT_ARGUMENTS,
+    ask,
+    container_node_names,
+    load_request,
+    require_container,
+)
 from ros2component.verb import VerbExtension
 
 ARGUMENTS = (
@@ -24,7 +30,6 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> str | None:
     """Load the node, and print its number and name."""
     from composition_interfaces.srv import LoadNode
-    from ros2component.containers import ask, require_container
 
     with DirectNode(args) as direct:
         container = require_container(direct.graph, args.container_node_name)

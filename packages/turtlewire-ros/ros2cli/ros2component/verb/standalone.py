@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import argument
-from ros2component.options import COMPONENT_ARGUMENTS, load_request
+from ros2component.containers import COMPONENT_ARGUMENTS, load_request
 from ros2component.verb import VerbExtension
 
 ARGUMENTS = (

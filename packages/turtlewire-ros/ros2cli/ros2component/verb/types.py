@@ -8,9 +8,6 @@ from ros2cli.arguments import argument
 from ros2cli.completion import packages
 from ros2component.verb import VerbExtension
 
-_RESOURCE = "rclcpp_components"
-
-
 ARGUMENTS = (
     argument(
         "package_name",
@@ -23,18 +20,17 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the components below their packages."""
-    from ament_index_python import get_resource, get_resources
+    from ros2component import api
 
-    registered = get_resources(_RESOURCE)
-    if args.package_name is not None and args.package_name not in registered:
-        return f"No components registered for package '{args.package_name}'"
-    for package in registered if args.package_name is None else [args.package_name]:
-        lines = get_resource(_RESOURCE, package)[0].splitlines()
-        if args.package_name is None:
+    chosen = args.package_name
+    registered = api.get_package_names_with_component_types()
+    if chosen is not None and chosen not in registered:
+        return f"No components registered for package '{chosen}'"
+    for package in registered if chosen is None else [chosen]:
+        if chosen is None:
             print(package)
-        for line in lines:
-            indent = "  " if args.package_name is None else ""
-            print(f"{indent}{line.partition(';')[0]}")
+        for name in api.get_package_component_types(package_name=package):
+            print(f"  {name}" if chosen is None else name)
     return None
 
 

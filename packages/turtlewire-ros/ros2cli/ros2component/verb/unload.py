@@ -9,7 +9,7 @@ from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
 from ros2cli.values import unsigned_int
-from ros2component.options import container_node_names
+from ros2component.containers import ask, container_node_names, require_container
 from ros2component.verb import VerbExtension
 
 ARGUMENTS = (
@@ -25,7 +25,6 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> int:
     """Unload the nodes; status 1 if one of them is not there."""
     from composition_interfaces.srv import UnloadNode
-    from ros2component.containers import ask, require_container
 
     status = 0
     with DirectNode(args) as direct:

@@ -20,10 +20,10 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Print the default values as YAML."""
-    from ros2cli.interface_names import prototype
+    from ros2interface.api import interface_to_yaml
 
     try:
-        text = prototype(args.type)
+        text = interface_to_yaml(args.type)
     except (AttributeError, ModuleNotFoundError, ValueError) as error:
         from ros2cli.suggestion import interface_meant
 

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from ros2cli.arguments import argument, exclusive
 from ros2cli.completion import interfaces
-from ros2cli.helpers import interactive_select
+from ros2cli.helpers import OPTIONAL, interactive_select
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
-from ros2cli.selection import OPTIONAL
 from ros2interface.verb import VerbExtension
 from turtlewire.msg.parser import without_comment
 

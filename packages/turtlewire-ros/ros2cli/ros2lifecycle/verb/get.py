@@ -8,7 +8,14 @@ from ros2cli.arguments import argument, timeout_argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell_failed_call
-from ros2lifecycle.managed_nodes import DEFAULT_TIMEOUT_S, HIDDEN_ARGUMENT, managed_node_names
+from ros2lifecycle.api import (
+    DEFAULT_TIMEOUT_S,
+    HIDDEN_ARGUMENT,
+    ask,
+    managed_node_names,
+    managed_nodes,
+    require_managed_node,
+)
 from ros2lifecycle.verb import VerbExtension
 
 ARGUMENTS = (
@@ -27,7 +34,6 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> int:
     """Print label and number of the state; returns 1 if a node could not be asked."""
     from lifecycle_msgs.srv import GetState
-    from ros2lifecycle.managed_nodes import ask, managed_nodes, require_managed_node
 
     status = 0
     with DirectNode(args) as direct:

@@ -7,7 +7,13 @@ import argparse
 from ros2cli.arguments import argument, timeout_argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
-from ros2lifecycle.managed_nodes import DEFAULT_TIMEOUT_S, HIDDEN_ARGUMENT, managed_node_names
+from ros2lifecycle.api import (
+    DEFAULT_TIMEOUT_S,
+    HIDDEN_ARGUMENT,
+    ask,
+    managed_node_names,
+    require_managed_node,
+)
 from ros2lifecycle.verb import VerbExtension
 
 ARGUMENTS = (
@@ -27,7 +33,6 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> None:
     """Print each transition with its start and its goal."""
     from lifecycle_msgs.srv import GetAvailableTransitions
-    from ros2lifecycle.managed_nodes import ask, require_managed_node
 
     service = "get_transition_graph" if args.all else "get_available_transitions"
     with DirectNode(args) as direct:

@@ -7,6 +7,7 @@ import argparse
 from ros2cli.arguments import argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.listing import HIDDEN_NODES, count_argument, print_names
+from ros2lifecycle.api import managed_nodes
 from ros2lifecycle.verb import VerbExtension
 
 ARGUMENTS = (
@@ -24,8 +25,6 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> None:
     """Print the full names."""
-    from ros2lifecycle.managed_nodes import managed_nodes
-
     with discovered_graph(args.spin_time) as graph:
         names = managed_nodes(graph, hidden=args.all)
     print_names(names, args)

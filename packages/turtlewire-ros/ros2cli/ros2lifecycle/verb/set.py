@@ -8,7 +8,7 @@ from ros2cli.arguments import argument, timeout_argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
-from ros2lifecycle.managed_nodes import HIDDEN_ARGUMENT, managed_node_names
+from ros2lifecycle.api import HIDDEN_ARGUMENT, ask, managed_node_names, require_managed_node
 from ros2lifecycle.verb import VerbExtension
 
 ARGUMENTS = (
@@ -27,7 +27,6 @@ def main(args: argparse.Namespace) -> str | None:
     """Ask for the transition, and print how it went."""
     from lifecycle_msgs.msg import Transition
     from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions
-    from ros2lifecycle.managed_nodes import ask, require_managed_node
 
     with DirectNode(args) as direct:
         name = require_managed_node(direct.graph, args)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.completion import node_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
+from ros2cli.helpers import OPTIONAL, select_node
 from ros2cli.json_lines import JSON_ARGUMENT, print_json, with_types
 from ros2cli.output import tell
-from ros2cli.selection import OPTIONAL, select_node
 from ros2node.verb import VerbExtension
 
 if TYPE_CHECKING:

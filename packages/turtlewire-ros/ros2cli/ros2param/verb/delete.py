@@ -6,8 +6,7 @@ import argparse
 
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
-from ros2param.options import NAME_ARGUMENT, node_arguments
-from ros2param.parameters import RemoteParameters
+from ros2param.parameters import NAME_ARGUMENT, RemoteParameters, node_arguments
 from ros2param.verb import VerbExtension
 
 ARGUMENTS = (*node_arguments(), NAME_ARGUMENT)

@@ -8,8 +8,7 @@ from typing import Any
 from ros2cli.arguments import argument
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
-from ros2param.options import node_arguments, parameter_names
-from ros2param.parameters import TYPE_NAMES, RemoteParameters
+from ros2param.parameters import TYPE_NAMES, RemoteParameters, node_arguments, parameter_names
 from ros2param.verb import VerbExtension
 
 ARGUMENTS = (

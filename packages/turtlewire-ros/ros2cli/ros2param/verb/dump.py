@@ -7,8 +7,7 @@ from typing import Any
 
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.node.direct import DirectNode
-from ros2param.options import node_arguments
-from ros2param.parameters import RemoteParameters
+from ros2param.parameters import RemoteParameters, node_arguments
 from ros2param.verb import VerbExtension
 
 PARAMETER_SEPARATOR_STRING = "."

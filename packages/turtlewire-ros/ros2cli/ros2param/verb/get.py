@@ -6,12 +6,16 @@ import argparse
 from typing import Any
 
 from ros2cli.arguments import argument
-from ros2cli.helpers import interactive_select
+from ros2cli.helpers import OPTIONAL, interactive_select, select_node
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.node.direct import DirectNode
-from ros2cli.selection import OPTIONAL, select_node
-from ros2param.options import node_arguments, parameter_names
-from ros2param.parameters import TYPE_NAMES, RemoteParameters, ask_all
+from ros2param.parameters import (
+    TYPE_NAMES,
+    RemoteParameters,
+    ask_all,
+    node_arguments,
+    parameter_names,
+)
 from ros2param.verb import VerbExtension
 
 _LABELS = {

@@ -8,8 +8,7 @@ from ros2cli.arguments import argument
 from ros2cli.completion import files
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import print_set_results
-from ros2param.options import node_arguments
-from ros2param.parameters import RemoteParameters
+from ros2param.parameters import RemoteParameters, node_arguments
 from ros2param.verb import VerbExtension
 
 ARGUMENTS = (

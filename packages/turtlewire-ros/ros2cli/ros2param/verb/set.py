@@ -8,8 +8,7 @@ from typing import Any
 from ros2cli.arguments import argument
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
-from ros2param.options import NAME_ARGUMENT, node_arguments, parameter_names
-from ros2param.parameters import RemoteParameters
+from ros2param.parameters import NAME_ARGUMENT, RemoteParameters, node_arguments, parameter_names
 from ros2param.verb import VerbExtension
 
 ARGUMENTS = (

@@ -26,8 +26,8 @@ ARGUMENTS = (
 def main(args: argparse.Namespace) -> str | None:
     """Print type and counts; in detail each client and server."""
     from rclpy.endpoint_info import EndpointTypeEnum, service_infos
-    from ros2cli.endpoint_data import service_endpoint_data
     from ros2cli.graph import services
+    from ros2cli.json_lines import service_endpoint_data
     from ros2cli.suggestion import did_you_mean
 
     with discovered_graph(args.spin_time) as graph:

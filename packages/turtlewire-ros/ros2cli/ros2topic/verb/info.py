@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from ros2cli.arguments import argument
 from ros2cli.completion import topic_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
+from ros2cli.helpers import OPTIONAL, select_topic
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
-from ros2cli.selection import OPTIONAL, select_topic
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:
@@ -62,8 +62,8 @@ def main(args: argparse.Namespace) -> str | None:
 
 def _print_json(graph: Graph, name: str, types: list[str], *, verbose: bool) -> None:
     from rclpy.endpoint_info import TopicEndpointInfo
-    from ros2cli.endpoint_data import topic_endpoint_data
     from ros2cli.graph import endpoints_of_topic
+    from ros2cli.json_lines import topic_endpoint_data
 
     data: dict[str, Any] = {"topic": name, "types": types}
     for kind in ("publisher", "subscription"):

@@ -9,12 +9,7 @@ from typing import TYPE_CHECKING
 from ros2cli.arguments import argument
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
-from ros2cli.listing import (
-    SHOW_TYPES,
-    count_argument,
-    hidden_argument,
-    print_names_and_types,
-)
+from ros2cli.listing import SHOW_TYPES, count_argument, hidden_argument, print_names_and_types
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ import argparse
 from ros2cli.arguments import argument
 from ros2cli.completion import topic_names
 from ros2cli.discovery import STRATEGY_ARGUMENTS, discovered_graph
+from ros2cli.helpers import OPTIONAL, select_topic
 from ros2cli.listing import print_types
-from ros2cli.selection import OPTIONAL, select_topic
 from ros2topic.verb import VerbExtension
 
 ARGUMENTS = (

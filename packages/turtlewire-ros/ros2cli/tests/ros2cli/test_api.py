@@ -12,8 +12,7 @@ import rclpy
 from ros2bag import api as bag
 from ros2bag.verb.play import PlayVerb
 from ros2cli import helpers, plugin_system
-from ros2cli.entry_points import get_entry_points, get_first_line_doc
-from ros2cli.installed import declared
+from ros2cli.entry_points import declared, get_entry_points, get_first_line_doc
 from ros2cli.node.direct import DirectNode
 from ros2cli.node.strategy import NodeStrategy
 from ros2interface.verb.show import ReadStdinPipe

@@ -7,8 +7,7 @@ import pytest
 import yaml
 from tests.programs import offered
 
-from ros2cli.completion import prototype
-from ros2cli.interface_names import interface_names
+from ros2cli.completion import interface_names, prototype
 from rosidl_runtime_py import set_message_fields
 from rosidl_runtime_py.utilities import get_message
 from turtlewire.wire import open_context

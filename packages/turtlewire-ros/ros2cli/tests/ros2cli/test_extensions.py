@@ -8,7 +8,7 @@ import time
 import pytest
 
 import rclpy
-from ros2cli.installed import declared
+from ros2cli.entry_points import declared
 from ros2cli.main import main
 from ros2doctor.verb.hello import (
     HelloMulticastUDPReceiver,

@@ -11,7 +11,7 @@ import pytest
 from tests.programs import run_python
 
 from ros2cli import main as ros2cli_main
-from ros2cli.installed import declared, first_line, summary
+from ros2cli.entry_points import declared, first_line, summary
 from ros2cli.main import main, make_parser
 from turtlewire import msg
 from turtlewire.wire import open_context

@@ -17,8 +17,8 @@ ARGUMENTS = (
 
 def main(args: argparse.Namespace) -> str | None:
     """Start the daemon; return the text of an error if that is not possible."""
+    from ros2cli.daemon import get_port
     from ros2cli.node.daemon import is_daemon_running, spawn_daemon
-    from ros2cli.node.server import get_port
 
     started = spawn_daemon(args, timeout=_START_S, debug=args.debug)
     if not started and not is_daemon_running(args):
