@@ -7,11 +7,10 @@ module                             contents
 `launch_context`                   the view of a launch that its entities get
 `_kernel`                          the state of one launch, and the protocols of its parts
 `launch_description`               a list of entities
-`launch_description_entity`        the base of descriptions and actions
+`launch_description_entity`        the base of descriptions and actions; declared arguments
 `launch_description_source`        the source of a description
 `launch_description_sources`       Python files, and files of any parser
 `launch_introspector`              a description as a tree, for ``ros2 launch --print``
-`launch_argument`                  a declared argument
 `action`, `actions`                the base of all actions; one module for each action
 `condition`, `conditions`          the base of conditions; if, unless, equals
 `event`, `events`                  the base of events; one module for each
@@ -20,7 +19,7 @@ module                             contents
 `descriptions`                     executables to run
 `frontend`                         the common parts of the XML and YAML parsers
 `child_process`                    a child process on the event loop
-`process_output`, `output_lines`   output of a process: logged; split into lines
+`process_output`                   output of a process: split into lines, logged
 `logging`                          the screen, ``launch.log`` and files of single processes
 `utilities`                        helpers of actions and substitutions
 `invalid_launch_file_error`        the error of launch files that no loader can read

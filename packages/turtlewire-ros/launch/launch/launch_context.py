@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, MutableMapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from launch import logging
 from launch._kernel.run import Run
-from launch._kernel.scopes import Scopes
 
 if TYPE_CHECKING:
     import asyncio
 
     from launch._kernel.protocols import EventHandling, Performable
     from launch.event import Event
+
+V = TypeVar("V")
 
 
 class _Locals:
@@ -31,6 +32,46 @@ class _Locals:
                 f"available attributes: {sorted(self._values)}"
             )
         return self._values[name]
+
+
+class Scopes(Generic[V]):
+    """A stack of copies of one mapping, for changes that end with a scope.
+
+    Args:
+        values: The mapping, which is changed in place.
+        kind: Names it in errors.
+    """
+
+    def __init__(self, values: MutableMapping[str, V], kind: str) -> None:
+        self._values = values
+        self._kind = kind
+        self._copies: list[dict[str, V]] = []
+
+    @property
+    def depth(self) -> int:
+        """The number of scopes that have begun and not ended."""
+        return len(self._copies)
+
+    def push(self) -> None:
+        """Remember the values."""
+        self._copies.append(dict(self._values))
+
+    def pop(self) -> None:
+        """Put the values back that were remembered last.
+
+        Raises:
+            RuntimeError: No scope was pushed.
+        """
+        if not self._copies:
+            raise RuntimeError(f"{self._kind} stack unexpectedly empty")
+        self.replace(self._copies.pop())
+
+    def replace(self, values: Mapping[str, V]) -> None:
+        """Make the mapping equal to ``values``."""
+        # In place, because `os.environ` cannot be replaced.
+        for name in set(self._values) - set(values):
+            del self._values[name]
+        self._values.update(values)
 
 
 class LaunchContext:

@@ -9,8 +9,8 @@ from launch import logging
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
-    from launch.launch_argument import LaunchArgument
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchArgument
 
 
 class LaunchDescription(LaunchDescriptionEntity):

@@ -1,15 +1,38 @@
-"""Base of launch descriptions and actions."""
+"""Base of launch descriptions and actions, and the argument that one declares."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     import asyncio
 
-    from launch.launch_argument import LaunchArgument
     from launch.launch_context import LaunchContext
+    from launch.substitution import Substitution
+
+
+class LaunchArgument(Protocol):
+    """The description of a ``DeclareLaunchArgument``."""
+
+    #: Whether it is declared only under a condition; known after a search for arguments.
+    conditionally_included: bool
+
+    @property
+    def name(self) -> str:
+        """The name of the argument."""
+
+    @property
+    def default_value(self) -> list[Substitution] | None:
+        """The value of the argument if the user does not set it; None if it is required."""
+
+    @property
+    def description(self) -> str:
+        """Purpose of the argument."""
+
+    @property
+    def choices(self) -> list[str] | None:
+        """The values it may have, or None for any."""
 
 
 class LaunchDescriptionEntity:

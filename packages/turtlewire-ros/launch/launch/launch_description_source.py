@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from launch.substitution import TextSubstitution, described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch.utilities.text import TextSubstitution
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -63,7 +63,7 @@ class LaunchDescriptionSource:
         """Path of the file; before it was read, the substitutions that give it."""
         if self._expanded_location is not None:
             return self._expanded_location
-        return " + ".join(part.describe() for part in self._location)
+        return described(self._location)
 
     @property
     def method(self) -> str:

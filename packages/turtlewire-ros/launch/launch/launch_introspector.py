@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
+from launch.substitution import described
 from launch.utilities import is_a
 
 if TYPE_CHECKING:
@@ -30,9 +31,7 @@ class LaunchIntrospector:
 
 def format_substitutions(substitutions: Iterable[Substitution] | None) -> str:
     """Return the descriptions, joined."""
-    return (
-        "None" if substitutions is None else " + ".join(part.describe() for part in substitutions)
-    )
+    return "None" if substitutions is None else described(substitutions)
 
 
 def format_action(action: Action) -> list[str]:

@@ -8,7 +8,6 @@ from launch.actions.declare_launch_argument import DeclareLaunchArgument
 from launch.frontend.expose import expose_action
 
 if TYPE_CHECKING:
-    from launch.frontend import Entity, Parser
     from launch.some_substitutions_type import SomeSubstitutionsType
 
 _CHOICES = ("true", "false", "True", "False", "TRUE", "FALSE")
@@ -38,10 +37,3 @@ class DeclareBooleanLaunchArgument(DeclareLaunchArgument):
             raise ValueError("Cannot specify choices for bool_arg")
         default = str(default_value) if isinstance(default_value, bool) else default_value
         super().__init__(name, default_value=default, choices=_CHOICES, **kwargs)
-
-    @classmethod
-    def parse(
-        cls, entity: Entity, parser: Parser
-    ) -> tuple[type[DeclareLaunchArgument], dict[str, Any]]:
-        _, kwargs = super().parse(entity, parser)
-        return cls, kwargs

@@ -9,8 +9,8 @@ from launch import logging
 from launch.action import Action
 from launch.frontend.entity import Entity
 from launch.frontend.expose import expose_action
+from launch.substitution import TextSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch.utilities.text import TextSubstitution
 
 if TYPE_CHECKING:
     from launch.frontend import Parser

@@ -9,6 +9,7 @@ from launch import logging
 from launch.action import Action
 from launch.actions.opaque_function import OpaqueFunction
 from launch.frontend.expose import expose_action
+from launch.substitution import described
 from launch.substitutions.for_loop_var import ForEachVar, ForLoopIndex
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -71,8 +72,7 @@ class ForEach(Action):
         return self._function
 
     def describe(self) -> str:
-        parts = " + ".join(part.describe() for part in self._input_values)
-        return f"ForEach(input_values={parts})"
+        return f"ForEach(input_values={described(self._input_values)})"
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the entities of all iterations."""
@@ -141,8 +141,7 @@ class ForLoop(Action):
         return self._name
 
     def describe(self) -> str:
-        parts = " + ".join(part.describe() for part in self._length)
-        return f"ForLoop(length={parts})"
+        return f"ForLoop(length={described(self._length)})"
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the entities of all iterations.

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from launch.action import Action
+from launch.actions.variable_action import ScopeAction
 from launch.frontend.expose import expose_action
 
 if TYPE_CHECKING:
-    from launch.frontend import Entity, Parser
     from launch.launch_context import LaunchContext
 
 
 @expose_action("push_env")
-class PushEnvironment(Action):
+class PushEnvironment(ScopeAction):
     """Remembers the environment variables."""
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[PushEnvironment], dict[str, Any]]:
-        _, kwargs = super().parse(entity, parser)
-        return cls, kwargs
 
     def execute(self, context: LaunchContext) -> None:
         context.environment_scopes.push()

@@ -18,6 +18,7 @@ from launch.event_handlers import OnShutdown
 from launch.events import TimerEvent
 from launch.frontend.expose import expose_action
 from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
+from launch.substitution import described
 from launch.utilities import (
     ensure_argument_type,
     normalize_to_list_of_substitutions,
@@ -94,15 +95,13 @@ class TimerAction(Action):
         return self._actions
 
     def describe(self) -> str:
-        period = " + ".join(part.describe() for part in self._period)
-        return f"TimerAction(period={period}, actions=<actions>)"
+        return f"TimerAction(period={described(self._period)}, actions=<actions>)"
 
     def describe_conditional_sub_entities(
         self,
     ) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
         """Return the actions, after the time."""
-        period = " + ".join(part.describe() for part in self._period)
-        return [(f"after {period} sec", self._actions)]
+        return [(f"after {described(self._period)} sec", self._actions)]
 
     def execute(self, context: LaunchContext) -> None:
         assert context.asyncio_loop is not None

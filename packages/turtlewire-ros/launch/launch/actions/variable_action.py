@@ -1,4 +1,4 @@
-"""The common parts of actions that set, extend and unset variables.
+"""The common parts of actions that set, extend, unset, remember and restore variables.
 
 The variables of a launch are its environment variables and its launch configurations.
 """
@@ -16,6 +16,16 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
     from launch.substitution import Substitution
+
+
+class ScopeAction(Action):
+    """Base of the actions that remember all variables, and put them back."""
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ScopeAction], dict[str, Any]]:
+        """Read what all actions have."""
+        _, kwargs = super().parse(entity, parser)
+        return cls, kwargs
 
 
 class VariableAction(Action):

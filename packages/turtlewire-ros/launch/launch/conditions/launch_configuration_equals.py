@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from launch.condition import Condition
+from launch.substitution import described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -33,8 +34,7 @@ class LaunchConfigurationEquals(Condition):
         super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
-        value = None if self._expected is None else [part.describe() for part in self._expected]
-        text = "None" if value is None else " + ".join(value)
+        text = "None" if self._expected is None else described(self._expected)
         return f"{type(self).__name__}({self._name}, {text})"
 
     def _predicate_func(self, context: LaunchContext) -> bool:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from launch.condition import Condition
 from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
+from launch.substitution import described
 from launch.utilities import normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
@@ -25,8 +26,7 @@ class UnlessCondition(Condition):
         super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
-        text = " + ".join(part.describe() for part in self._predicate_expression)
-        return f"UnlessCondition({text})"
+        return f"UnlessCondition({described(self._predicate_expression)})"
 
     def _predicate_func(self, context: LaunchContext) -> bool:
         return not evaluate_condition_expression(context, self._predicate_expression)

@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import instantiate_substitution
-from launch.utilities.text import TextSubstitution
+from launch.substitution import TextSubstitution
 
 if TYPE_CHECKING:
     from launch.substitution import Substitution

@@ -8,13 +8,13 @@ from logging import getLogger as getLogger
 
 from launch.logging.config import (
     LaunchConfig,
+    default_log_dir,
     get_logger,
     get_output_loggers,
     launch_config,
     log_launch_config,
     reset,
 )
-from launch.logging.directory import default_log_dir
 
 __all__ = [
     "CRITICAL",

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class AnonName(Substitution):
         return self._name
 
     def describe(self) -> str:
-        return f"AnonName({' + '.join(part.describe() for part in self._name)})"
+        return f"AnonName({described(self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the unique name."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import coerce_to_type
@@ -63,7 +63,7 @@ class NotSubstitution(Substitution):
         return self._value
 
     def describe(self) -> str:
-        return f"NotSubstitution({' + '.join(part.describe() for part in self._value)})"
+        return f"NotSubstitution({described(self._value)})"
 
     def perform(self, context: LaunchContext) -> str:
         return _text(not as_bool(context, self._value))
@@ -115,10 +115,7 @@ class LeftRightLogicalSubstitution(Substitution):
         return self._right
 
     def describe(self) -> str:
-        left, right = (
-            " + ".join(part.describe() for part in side) for side in (self._left, self._right)
-        )
-        return f"{type(self).__name__}({left} {right})"
+        return f"{type(self).__name__}({described(self._left)} {described(self._right)})"
 
     def perform(self, context: LaunchContext) -> str:
         return _text(self._func(as_bool(context, self._left), as_bool(context, self._right)))
@@ -178,8 +175,7 @@ class ContainerSubstitution(Substitution):
         return self._args
 
     def describe(self) -> str:
-        arguments = (" + ".join(part.describe() for part in arg) for arg in self._args)
-        return f"{type(self).__name__}({' '.join(arguments)})"
+        return f"{type(self).__name__}({' '.join(map(described, self._args))})"
 
     def perform(self, context: LaunchContext) -> str:
         return _text(self._func(as_bool(context, arg) for arg in self._args))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch import logging
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -52,7 +52,7 @@ class Command(Substitution):
         return self._on_stderr
 
     def describe(self) -> str:
-        return f"Command({' + '.join(part.describe() for part in self._command)})"
+        return f"Command({described(self._command)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Run the command and return its output.

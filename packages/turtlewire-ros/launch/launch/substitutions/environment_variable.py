@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -52,7 +52,7 @@ class EnvironmentVariable(Substitution):
         return self._default_value
 
     def describe(self) -> str:
-        return f"EnvVar({' + '.join(part.describe() for part in self._name)})"
+        return f"EnvVar({described(self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value.

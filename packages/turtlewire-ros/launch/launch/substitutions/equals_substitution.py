@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -47,10 +47,7 @@ class EqualsSubstitution(Substitution):
         return self._right
 
     def describe(self) -> str:
-        left, right = (
-            " + ".join(part.describe() for part in side) for side in (self._left, self._right)
-        )
-        return f"{type(self).__name__}({left} {right})"
+        return f"{type(self).__name__}({described(self._left)} {described(self._right)})"
 
     def perform(self, context: LaunchContext) -> str:
         return "true" if self._equal(context) else "false"

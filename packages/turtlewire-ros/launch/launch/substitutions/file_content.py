@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -41,7 +41,7 @@ class FileContent(Substitution):
         return self._path
 
     def describe(self) -> str:
-        return f"FileContent({' + '.join(part.describe() for part in self._path)})"
+        return f"FileContent({described(self._path)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the content.

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -41,7 +41,7 @@ class FindExecutable(Substitution):
         return self._name
 
     def describe(self) -> str:
-        return f"FindExec({' + '.join(part.describe() for part in self._name)})"
+        return f"FindExec({described(self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path.

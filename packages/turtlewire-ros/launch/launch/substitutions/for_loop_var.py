@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class ForEachVar(Substitution):
         return self._default_value
 
     def describe(self) -> str:
-        return f"{type(self).__name__}({' + '.join(part.describe() for part in self._name)})"
+        return f"{type(self).__name__}({described(self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value as text.

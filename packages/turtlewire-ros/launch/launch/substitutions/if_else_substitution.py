@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.substitutions.boolean_substitution import as_bool
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -66,10 +66,7 @@ class IfElseSubstitution(Substitution):
         return self._else_value
 
     def describe(self) -> str:
-        parts = (
-            " + ".join(part.describe() for part in side)
-            for side in (self._condition, self._if_value, self._else_value)
-        )
+        parts = map(described, (self._condition, self._if_value, self._else_value))
         return f"IfElseSubstitution({', '.join(parts)})"
 
     def perform(self, context: LaunchContext) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -46,7 +46,7 @@ class LaunchConfiguration(Substitution):
         return self._variable_name
 
     def describe(self) -> str:
-        return f"LaunchConfig({' + '.join(part.describe() for part in self._variable_name)})"
+        return f"LaunchConfig({described(self._variable_name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value.

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -42,8 +42,7 @@ class PathJoinSubstitution(Substitution):
         return self._substitutions
 
     def describe(self) -> str:
-        parts = (" + ".join(sub.describe() for sub in part) for part in self._substitutions)
-        return f"PathJoin({', '.join(parts)})"
+        return f"PathJoin({', '.join(map(described, self._substitutions))})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.substitutions.text_substitution import TextSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -65,11 +65,8 @@ class PythonExpression(Substitution):
         return self._modules
 
     def describe(self) -> str:
-        expression = " + ".join(part.describe() for part in self._expression)
-        modules = ", ".join(
-            " + ".join(part.describe() for part in module) for module in self._modules
-        )
-        return f"PythonExpr({expression}, [{modules}])"
+        modules = ", ".join(map(described, self._modules))
+        return f"PythonExpr({described(self._expression)}, [{modules}])"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value as text.

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -54,8 +54,7 @@ class StringJoinSubstitution(Substitution):
         return self._delimiter
 
     def describe(self) -> str:
-        parts = (" + ".join(sub.describe() for sub in part) for part in self._substitutions)
-        return f"StringJoin({', '.join(parts)})"
+        return f"StringJoin({', '.join(map(described, self._substitutions))})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the text."""

@@ -1,5 +1,5 @@
 """Plain text."""
 
-from launch.utilities.text import TextSubstitution
+from launch.substitution import TextSubstitution
 
 __all__ = ["TextSubstitution"]

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from launch.substitution import described
+
 if TYPE_CHECKING:
-    from launch.launch_argument import LaunchArgument
+    from launch.launch_description_entity import LaunchArgument
 
 
 def parse_arguments(words: Iterable[str]) -> list[tuple[str, str]]:
@@ -40,8 +42,7 @@ def describe_arguments(arguments: Iterable[LaunchArgument]) -> str:
         ]
         if declared.default_value is not None:
             # As in ROS 2, unevaluated: $(eval) and $(command) would run code from the file.
-            default = " + ".join(part.describe() for part in declared.default_value)
-            lines.append(f"        (default: {default})")
+            lines.append(f"        (default: {described(declared.default_value)})")
     if len(lines) == 1:
         lines += ["", "  No arguments."]
     if conditional:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from launch.substitution import Substitution
-from launch.utilities.text import TextSubstitution
+from launch.substitution import Substitution, TextSubstitution
 
 if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType

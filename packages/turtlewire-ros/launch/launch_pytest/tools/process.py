@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import functools
 from collections.abc import Callable, Coroutine, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
     from launch.event_handler import BaseEventHandler
 
     Validate = Callable[[str], Any]
+
+_Arguments = ParamSpec("_Arguments")
+_Result = TypeVar("_Result")
 
 
 @contextlib.contextmanager
@@ -90,7 +94,6 @@ async def wait_for_output(
         True if the text was accepted in time.
     """
     read = execute_process_action.get_stdout
-    _require_cache(execute_process_action)
     return await _wait_for_text(
         launch_context, execute_process_action, read, validate_output, timeout
     )
@@ -104,7 +107,6 @@ async def wait_for_stderr(
 ) -> bool:
     """Wait as :func:`wait_for_output` does, for stderr, where ROS nodes log."""
     read = execute_process_action.get_stderr
-    _require_cache(execute_process_action)
     return await _wait_for_text(
         launch_context, execute_process_action, read, validate_output, timeout
     )
@@ -136,78 +138,30 @@ async def assert_stderr(
         _refuse(validate_output, execute_process_action.get_stderr(), "stderr")
 
 
-def wait_for_start_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    timeout: float | None = None,
-) -> bool:
-    """:func:`wait_for_start` for another thread."""
-    return bool(
-        _run(launch_context, wait_for_start(launch_context, execute_process_action, timeout))
-    )
+def _for_another_thread(
+    function: Callable[_Arguments, Coroutine[Any, Any, _Result]],
+) -> Callable[_Arguments, _Result]:
+    """Return the form of a function that runs it on the loop of the launch."""
+
+    @functools.wraps(function)
+    def run(*args: _Arguments.args, **kwargs: _Arguments.kwargs) -> _Result:
+        context: Any = args[0] if args else kwargs["launch_context"]
+        loop = context.asyncio_loop
+        if loop is None:  # the launch has ended: the coroutine does not wait
+            return asyncio.run(function(*args, **kwargs))
+        return asyncio.run_coroutine_threadsafe(function(*args, **kwargs), loop).result()
+
+    run.__name__ = run.__qualname__ = f"{function.__name__}_sync"
+    run.__doc__ = f":func:`{function.__name__}` for another thread."
+    return run
 
 
-def wait_for_exit_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    timeout: float | None = None,
-) -> bool:
-    """:func:`wait_for_exit` for another thread."""
-    return bool(
-        _run(launch_context, wait_for_exit(launch_context, execute_process_action, timeout))
-    )
-
-
-def wait_for_output_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    validate_output: Validate,
-    timeout: float | None = None,
-) -> bool:
-    """:func:`wait_for_output` for another thread."""
-    waiting = wait_for_output(launch_context, execute_process_action, validate_output, timeout)
-    return bool(_run(launch_context, waiting))
-
-
-def wait_for_stderr_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    validate_output: Validate,
-    timeout: float | None = None,
-) -> bool:
-    """:func:`wait_for_stderr` for another thread."""
-    waiting = wait_for_stderr(launch_context, execute_process_action, validate_output, timeout)
-    return bool(_run(launch_context, waiting))
-
-
-def assert_output_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    validate_output: Validate,
-    timeout: float | None = None,
-) -> None:
-    """:func:`assert_output` for another thread."""
-    asserting = assert_output(launch_context, execute_process_action, validate_output, timeout)
-    _run(launch_context, asserting)
-
-
-def assert_stderr_sync(
-    launch_context: LaunchContext,
-    execute_process_action: ExecuteProcess,
-    validate_output: Validate,
-    timeout: float | None = None,
-) -> None:
-    """:func:`assert_stderr` for another thread."""
-    asserting = assert_stderr(launch_context, execute_process_action, validate_output, timeout)
-    _run(launch_context, asserting)
-
-
-def _run(context: LaunchContext, waiting: Coroutine[Any, Any, Any]) -> Any:
-    """Run a coroutine on the loop of the launch, from another thread."""
-    loop = context.asyncio_loop
-    if loop is None:  # the launch has ended: the coroutine does not wait
-        return asyncio.run(waiting)
-    return asyncio.run_coroutine_threadsafe(waiting, loop).result()
+wait_for_start_sync = _for_another_thread(wait_for_start)
+wait_for_exit_sync = _for_another_thread(wait_for_exit)
+wait_for_output_sync = _for_another_thread(wait_for_output)
+wait_for_stderr_sync = _for_another_thread(wait_for_stderr)
+assert_output_sync = _for_another_thread(assert_output)
+assert_stderr_sync = _for_another_thread(assert_stderr)
 
 
 async def _wait_for_text(
@@ -217,6 +171,10 @@ async def _wait_for_text(
     validate: Validate,
     timeout: float | None,
 ) -> bool:
+    if not action.cached_output:
+        raise ValueError(
+            f"the output of {action.describe()} is not kept; give the action cached_output=True"
+        )
     changed = asyncio.Event()
 
     def wake(*_: object) -> None:
@@ -274,10 +232,3 @@ def _refuse(validate: Validate, written: bytes, stream: str) -> None:
 
 def _text(written: bytes) -> str:
     return written.decode(errors="replace")
-
-
-def _require_cache(action: ExecuteProcess) -> None:
-    if not action.cached_output:
-        raise ValueError(
-            f"the output of {action.describe()} is not kept; give the action cached_output=True"
-        )

@@ -8,8 +8,8 @@ import pytest
 
 from launch import BaseEventHandler, Event, LaunchContext, LaunchService
 from launch._kernel.run import Run
-from launch._kernel.scopes import Scopes
 from launch.events import Shutdown
+from launch.launch_context import Scopes
 
 
 def running(coroutine_function):

@@ -11,8 +11,7 @@ import pytest
 
 from launch import Action, LaunchContext
 from launch.actions import LogInfo, TimerAction
-from launch.output_lines import OutputLines
-from launch.process_output import ProcessOutput
+from launch.process_output import OutputLines, ProcessOutput
 from launch.substitutions import LaunchConfiguration, TextSubstitution
 from launch.utilities import (
     AsyncSafeSignalManager,

@@ -7,8 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from launch.event_handlers import OnProcessExit
 from launch.frontend import expose_action
-from launch_ros._node.lifecycle import TO_ACTIVE, Autostart, change_states
-from launch_ros._node.lifecycle_event_manager import LifecycleEventManager
+from launch_ros._node.lifecycle import (
+    TO_ACTIVE,
+    Autostart,
+    LifecycleEventManager,
+    change_states,
+)
 from launch_ros.actions.node import Node
 
 if TYPE_CHECKING:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
-from launch_ros._node.lifecycle import Autostart
-from launch_ros._node.lifecycle_event_manager import LifecycleEventManager
+from launch_ros._node.lifecycle import Autostart, LifecycleEventManager
 from launch_ros.descriptions.composable_node import ComposableNode
 
 if TYPE_CHECKING:

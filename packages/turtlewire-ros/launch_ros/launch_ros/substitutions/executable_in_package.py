@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ament_index_python.packages import get_package_prefix
 from launch.frontend.expose import expose_substitution
+from launch.substitution import described
 from launch.substitutions import PathSubstitution, SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from turtlewire_ros.executables import executable_paths, libexec_directory
@@ -62,10 +63,7 @@ class ExecutableInPackage(PathSubstitution):
 
     def describe(self) -> str:
         """Name both."""
-        package, executable = (
-            " + ".join(part.describe() for part in name)
-            for name in (self._package, self._executable)
-        )
+        package, executable = described(self._package), described(self._executable)
         return f"ExecInPkg(pkg={package}, exec={executable})"
 
     def perform(self, context: LaunchContext) -> str:

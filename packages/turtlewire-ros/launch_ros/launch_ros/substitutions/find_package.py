@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ament_index_python.packages import get_package_prefix, get_package_share_directory
 from launch.frontend.expose import expose_substitution
+from launch.substitution import described
 from launch.substitutions.path_join_substitution import PathSubstitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -47,7 +48,7 @@ class FindPackage(PathSubstitution):
 
     def describe(self) -> str:
         """Name the package."""
-        return f"{type(self).__name__}(pkg={' + '.join(part.describe() for part in self._package)})"
+        return f"{type(self).__name__}(pkg={described(self._package)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the folder.

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
+from launch.substitution import Substitution, described
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities.scope import global_parameters
@@ -45,7 +45,7 @@ class Parameter(Substitution):
 
     def describe(self) -> str:
         """Name it."""
-        return f"Parameter({' + '.join(part.describe() for part in self._name)})"
+        return f"Parameter({described(self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value as text.

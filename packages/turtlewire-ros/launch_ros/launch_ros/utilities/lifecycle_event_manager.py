@@ -21,4 +21,4 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module
 
-    return import_module("launch_ros._node.lifecycle_event_manager").LifecycleEventManager
+    return import_module("launch_ros._node.lifecycle").LifecycleEventManager
