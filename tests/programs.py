@@ -3,9 +3,18 @@
 from __future__ import annotations
 
 import os
+import shlex
 import subprocess
 import sys
 from typing import Any
+
+#: `ros2` on this interpreter, to be followed by its words; and the same for a shell.
+ROS2 = (
+    sys.executable,
+    "-c",
+    "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))",
+)
+ROS2_IN_SHELL = shlex.join(ROS2)
 
 
 def run_python(

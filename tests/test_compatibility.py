@@ -43,7 +43,7 @@ the router listens on all interfaces
 `rosidl_parser.parser` needs lark, and its grammar has enums
   rosidl_parser/test_parser.py test_all_fields_have_the_types_that_classes_have test_errors_are_reported
 an extension of another package may replace an extension of ROS 2 with the same name
-  ros2cli/test_extensions_of_others.py test_a_verb_is_added_and_none_is_replaced
+  ros2cli/test_extensions.py test_a_verb_is_added_and_none_is_replaced
 Ctrl-C in `ros2 bag convert` leaves a bag that looks complete
   rosbag2_py/test_converting.py test_an_interrupted_conversion_says_so_and_leaves_no_half_bag
 interfaces, from Jazzy on
@@ -70,24 +70,24 @@ launch, in Lyrical
   launch/test_later_actions.py test_a_log_without_a_level_is_warned_of_in_lyrical
   launch/test_frontend.py test_an_action_s_own_parse
 `ros2 run`, from Kilted on
-  ros2cli/test_run_command.py test_the_signal_is_told_from_kilted_on
+  ros2cli/test_launch_and_run.py test_a_signal_ends_the_executable_and_is_told_from_kilted_on
 bags, in Lyrical
   bag/test_writer.py test_files_of_lyrical_have_the_number_in_front_and_the_time_behind
 `ros2 topic`
-  ros2cli/test_several.py test_two_topics test_all_topics test_qos_of_the_subscription
-  ros2cli/test_pub_of_a_file.py test_each_document_is_a_message
+  ros2cli/test_topic_statistics.py test_two_topics test_all_topics test_qos_of_the_subscription
+  ros2cli/test_topics.py test_each_document_is_a_message
 `ros2 service`
   ros2cli/test_services.py test_a_call_waits_no_longer_than_it_is_told test_stamps_have_the_time_of_each_call test_clients_and_servers_in_detail
 `ros2 action`
-  ros2cli/test_action_echo.py test_names_of_a_type test_messages_of_all_interfaces
+  ros2cli/test_services.py test_names_of_a_type test_messages_of_all_interfaces
 `ros2 lifecycle`, `ros2 component`
   ros2cli/test_unanswered.py test_verbs_end_in_time
 `ros2` without a name, in Lyrical
-  ros2cli/test_selection.py test_verbs_use_the_chosen_name test_without_a_terminal
+  ros2cli/test_command_line.py test_verbs_use_the_chosen_name test_without_a_terminal
 `ros2 action send_goal`, in Lyrical
   ros2cli/test_unanswered.py test_a_goal_ends_in_time_in_lyrical
 `ros2 param`
-  ros2cli/test_several.py test_several_parameters_of_a_node test_a_parameter_of_all_nodes test_several_parameters_are_set test_all_parameters_are_set_or_none
+  ros2cli/test_node_services.py test_several_parameters_of_a_node test_a_parameter_of_all_nodes test_several_parameters_are_set test_all_parameters_are_set_or_none
 `ros2 bag record`, in Lyrical
   rosbag2_transport/test_lyrical_options.py test_topics_without_their_option_are_gone_in_lyrical
 `ros2 bag`
@@ -100,7 +100,7 @@ parameter files and `-p`, in Lyrical
 URDF, in Lyrical
   urdf/test_versions.py test_versions_that_lyrical_reads test_up_to_kilted_there_is_only_version_1_0 test_an_origin_with_a_quaternion test_capsules test_limits_of_version_1_2
 `ros2topic.api.add_qos_arguments`, from Kilted on
-  ros2cli/test_qos.py test_the_parameters_of_ros2topic_follow_the_distribution
+  ros2cli/test_topics.py test_the_parameters_of_ros2topic_follow_the_distribution
 robot_state_publisher, in Lyrical
   robot_state_publisher/test_node.py test_the_description_from_a_topic test_frequencies_are_more_than_zero_in_lyrical test_a_file_is_no_description_in_lyrical
 `ros2 doctor --report`
@@ -335,7 +335,7 @@ bad `--ros-args` abort with 250
   test_compatibility.py test_bad_arguments_end_turtlesim_with_status_1
 
 `--ros-args` that cannot be read end a Python node with a traceback
-  ros2cli/test_run_command.py test_a_bad_command_line_of_a_node_is_told_in_one_line
+  ros2cli/test_launch_and_run.py test_a_bad_command_line_of_a_node_is_told_in_one_line
 an unknown name is answered with an error line only
   ros2cli/test_suggestions.py test_names_that_are_known_without_nodes test_names_of_the_graph
 a package that is not built or sourced, and a file that is not installed, are reported as not found, without a reason
@@ -349,7 +349,7 @@ an error in a launch file does not include its position
 colcon builds a package whose `package.xml` cannot be read, but ROS does not find it afterwards
   test_colcon_ament.py test_a_broken_manifest_is_named_with_its_line
 SIGTERM and a single SIGINT of `ros2 run` leave the executable running
-  ros2cli/test_run_command.py test_a_signal_to_ros2_run_ends_the_executable
+  ros2cli/test_launch_and_run.py test_a_signal_ends_the_executable_and_is_told_from_kilted_on
 a playback that begins at an offset, paused or after a seek loses the latched messages from before
   rosbag2_transport/test_player.py test_received_messages_equal_those_of_the_real_node test_a_paused_playback_has_sent_what_was_latched_before_the_bag test_after_a_seek_listeners_have_what_was_latched_then
 a subscription that joins a playback late gets the last ten messages of `/tf_static`
@@ -392,7 +392,7 @@ endpoints of different types on one topic or service exchange nothing, in silenc
 a verb waits silently for a service with another type or a wrong name
   ros2cli/test_unanswered.py test_mistakes_raise_immediately test_requests_that_do_not_get_through_are_told_once
 YAML aliases may stand for any number of values
-  ros2cli/test_values.py test_aliases_that_stand_for_too_much_are_refused
+  ros2cli/test_command_line.py test_aliases_that_stand_for_too_much_are_refused
 `interface show` prints upstream's comments
   ros2cli/test_golden_cli.py test_commands_without_nodes
 the `print()` output of children waits in a buffer
@@ -427,7 +427,7 @@ Ctrl-C of a verb may end in error lines
 a verb ends with a traceback or "Exception ignored" if `head` has closed its output or the disk is full
   test_program.py test_a_reader_that_has_gone_ends_a_command_as_it_ends_git test_a_full_disk_is_one_line
 `ros2 run` starts a script with the interpreter in its shebang line
-  ros2cli/test_run_command.py test_python_scripts_run_on_this_interpreter
+  ros2cli/test_launch_and_run.py test_python_scripts_run_on_this_interpreter
 `AMENT_PREFIX_PATH` must be set
   turtlewire_ros/test_prefix.py test_prefixes_that_exist_in_their_order_and_the_own_one_last
 `pkg create` can create C++ packages, and creates one if `--build-type` is not given

@@ -118,7 +118,7 @@ Names and texts of the robot's programs may contain instructions
 Launch files are programs
   test_security.py test_launching_a_file_runs_its_code
 `ros2 launch --show-args` and `--print` run the code of Python files only
-  ros2cli/test_launch_command.py test_arguments_are_shown_without_running_code
+  ros2cli/test_launch_and_run.py test_arguments_are_shown_without_running_code
   test_security.py test_showing_the_arguments_of_a_python_file_runs_it
 Xacro files evaluate expressions
   robots/test_urdf_tutorial.py test_xacro_finds_the_packages_of_the_workspace

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from turtlewire.terminal.printable import printable
+from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.wire import names
 from turtlewire.wire.base import NodeInfo
 
@@ -65,11 +66,10 @@ def require_node(graph: Graph, name: str) -> str:
     Raises:
         RuntimeError: The name is unknown.
     """
-    from ros2cli.suggestion import did_you_mean
-
     full_name = full_node_name(name)
     if not node_exists(graph, full_name):
-        raise RuntimeError(f"Node not found{did_you_mean(full_name, node_names(graph))}")
+        near = did_you_mean(full_name, node_names(graph))
+        raise RuntimeError(f"Node not found\n{near}".rstrip())
     return full_name
 
 

@@ -63,7 +63,7 @@ def test_ctrl_c_in_a_terminal_reaches_the_children_by_itself(ros2_launch):
     launch.wait_for(r"\[child-\d\] ready", count=2)
     launch.type("\x03")
     assert launch.wait() == 0
-    assert launch.text.count("bye") == launch.text.count("process has finished cleanly") == 2
+    assert launch.text.count("] bye") == launch.text.count("process has finished cleanly") == 2
     assert "sending signal" not in launch.text
     assert (
         "\x1b[33mWARNING\x1b[0m] [launch]: user interrupted with ctrl-c (SIGINT)" in launch.text
@@ -81,7 +81,7 @@ def test_ctrl_c_without_a_terminal(ros2_launch, whom):
         launch.signal_group(signal.SIGINT)
     assert launch.wait() == 0
     if whom == "launch alone":  # at two SIGINT at once a child may say anything
-        assert launch.text.count("bye") == 2
+        assert launch.text.count("] bye") == 2
         assert launch.text.count("sending signal 'SIGINT' to process[") == 2
     assert "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)" in launch.text
     assert launch.survivors() == []
@@ -109,7 +109,7 @@ def test_a_hang_up_stops_the_children_too(ros2_launch):
     os.kill(launch.process.pid, signal.SIGHUP)
     assert launch.wait() == 1
     assert "[ERROR] [launch]: the terminal was closed (SIGHUP), terminating..." in launch.text
-    assert launch.text.count("bye") == 2
+    assert launch.text.count("] bye") == 2
     assert launch.survivors() == []
 
 
@@ -136,7 +136,7 @@ def test_sigterm_stops_the_children_too(ros2_launch, signum):
         rf"[ERROR] [launch]: user interrupted with ctrl-\ ({signum.name}), terminating..."
         in launch.text
     )
-    assert launch.text.count("bye") == 2
+    assert launch.text.count("] bye") == 2
     assert launch.survivors() == []
 
 

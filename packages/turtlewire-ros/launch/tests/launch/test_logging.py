@@ -8,7 +8,7 @@ import pytest
 
 from launch import LaunchDescription, LaunchService, logging
 from launch.actions import ExecuteProcess, LogInfo
-from launch.logging import directory
+from launch.logging import config
 
 
 @pytest.fixture(autouse=True)
@@ -35,7 +35,7 @@ def test_a_folder_that_cannot_be_made_is_named_with_the_remedy(tmp_path):
     with pytest.raises(
         RuntimeError, match=r"cannot make the log folder .*Not a directory.*ROS_LOG_DIR"
     ):
-        directory.make_launch_log_dir(str(blocked / "log"))
+        config.make_launch_log_dir(str(blocked / "log"))
 
 
 def test_each_launch_has_a_folder_and_the_last_one_a_link(launch, tmp_path):

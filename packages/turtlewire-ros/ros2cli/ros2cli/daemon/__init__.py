@@ -42,7 +42,7 @@ __all__ = [
 _BASE_PORT = 11511
 _PATH = "/ros2cli/"
 #: Seconds without a call after which the daemon ends.
-IDLE_S = 2 * 60 * 60
+_IDLE_S = 2 * 60 * 60
 
 #: Methods of the node that can be called; the last two since Lyrical.
 _METHODS = (
@@ -111,7 +111,7 @@ def make_xmlrpc_server() -> LocalXMLRPCServer:
     )
 
 
-def serve(server: LocalXMLRPCServer, *, timeout: float = IDLE_S) -> None:
+def serve(server: LocalXMLRPCServer, *, timeout: float = _IDLE_S) -> None:
     """Answer calls until one asks for the end, none comes for a time, or a signal comes.
 
     Args:
@@ -157,7 +157,7 @@ def _wake(server: LocalXMLRPCServer) -> None:
         socket.create_connection(_address(server)).close()
 
 
-def serve_and_close(server: LocalXMLRPCServer, *, timeout: float = IDLE_S) -> None:
+def serve_and_close(server: LocalXMLRPCServer, *, timeout: float = _IDLE_S) -> None:
     """Answer calls as `serve` does, then close the server."""
     try:
         serve(server, timeout=timeout)
@@ -176,7 +176,7 @@ def main(*, argv: Sequence[str] | None = None) -> int | str:
         "--timeout",
         metavar="N",
         type=int,
-        default=IDLE_S,
+        default=_IDLE_S,
         help="End after N seconds without a call (default: %(default)s)",
     )
     args = parser.parse_args(argv)

@@ -20,7 +20,7 @@ from ros2cli.helpers import OPTIONAL, interactive_select
 from turtlewire.distro import KILTED, since
 from turtlewire_ros.process_family import ProcessFamily
 
-__all__ = ["ARGUMENTS", "REMAINDER", "RunCommand", "main", "named", "run_and_tell"]
+__all__ = ["ARGUMENTS", "REMAINDER", "RunCommand", "main", "named", "run", "run_and_tell"]
 
 #: Windows has no SIGHUP.
 _PASSED_ON = {

@@ -1,6 +1,5 @@
 """`ros2doctor.api`: checks and reports, including other packages'."""
 
-import subprocess
 import sys
 
 import pytest
@@ -137,14 +136,6 @@ def test_parts():
     assert compute_padding(Report("nothing").items) == 0
     with pytest.warns(UserWarning, match="careful"):
         doctor_warn("careful")
-
-
-def test_the_report_of_the_command_is_the_same():
-    program = "from ros2cli.main import main; main(['doctor', '--report'])"
-    run = [sys.executable, "-c", program]
-    shown = subprocess.run(run, capture_output=True, text=True, check=True, timeout=840).stdout
-    assert "\n   PLATFORM INFORMATION\nsystem " in shown
-    assert "\n   TOPIC LIST\n" in shown
 
 
 def test_reports_of_one_category():

@@ -4,9 +4,9 @@ import argparse
 import contextlib
 import math
 import os
-import sys
 
 import pytest
+from tests.programs import ROS2
 
 from ros2cli import graph as ask
 from ros2cli.discovery import wait_until_discovered
@@ -200,8 +200,7 @@ def test_statistics_do_not_ask_for_the_history_of_a_topic(run, verb):
         node = other.create_node("map")
         publisher = node.create_publisher("/map", kind, latched)
         publisher.publish(msg.serialize(msg.get_message("geometry_msgs/msg/PointStamped")()))
-        program = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
-        run(sys.executable, "-c", program, "topic", verb, "/map")
+        run(*ROS2, "topic", verb, "/map")
 
         def subscriptions():
             return ask.endpoints_of_topic(other.graph, "/map", "subscription")

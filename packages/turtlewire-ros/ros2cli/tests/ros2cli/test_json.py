@@ -7,6 +7,7 @@ import sys
 from types import SimpleNamespace
 
 import pytest
+from tests.programs import ROS2, ROS2_IN_SHELL
 
 from rclpy.task import Future
 from rclpy.time import Time
@@ -20,7 +21,6 @@ from ros2topic.verb.hz import ROSTopicHz
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header, String
 
-PROGRAM = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
 SERVERS = """
 import math
 import rclpy
@@ -174,7 +174,7 @@ def test_errors_print_no_json(servers, capsys):
 
 @pytest.mark.parametrize("verb", ["hz", "bw", "delay"])
 def test_warnings_are_on_stderr(verb):
-    words = [sys.executable, "-c", PROGRAM, "topic", verb, "--json", "/later"]
+    words = [*ROS2, "topic", verb, "--json", "/later"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
         warning = run.stderr.readline()
         run.terminate()
@@ -273,16 +273,14 @@ def test_comments_of_interfaces_are_rejected(capsys):
 
 
 def test_a_closed_pipe_ends_the_command(run, servers):
-    program = run(
-        "bash", "-c", f"{sys.executable} -c '{PROGRAM}' topic echo --json /scan | head -1"
-    )
+    program = run("bash", "-c", f"{ROS2_IN_SHELL} topic echo --json /scan | head -1")
     assert program.wait() == 0
     (line,) = program.text.splitlines()
     assert json.loads(line)["ranges"] == [1.5, "NaN"]
 
 
 def test_each_line_is_written_at_once(servers):
-    words = [sys.executable, "-c", PROGRAM, "topic", "hz", "--json", "--all"]
+    words = [*ROS2, "topic", "hz", "--json", "--all"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as verb:
         line = json.loads(verb.stdout.readline())  # a buffer of some kilobytes would fill later
         verb.terminate()

@@ -1,18 +1,11 @@
 """`ros2 multicast`: one datagram from a sender to a receiver."""
 
-import shlex
 import subprocess
-import sys
 
 import pytest
+from tests.programs import ROS2, ROS2_IN_SHELL
 
 from ros2cli.main import main
-
-ROS2 = (
-    sys.executable,
-    "-c",
-    "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))",
-)
 
 
 def test_a_datagram_arrives(run, capsys):
@@ -39,9 +32,9 @@ OWN_NETWORK = (
 def test_without_a_network_it_arrives_on_the_same_host(run):
     receive_and_send = f"""
         ip link set lo up
-        {{ {shlex.join(ROS2)} multicast receive; echo "status $?"; }} | while read -r line; do
+        {{ {ROS2_IN_SHELL} multicast receive; echo "status $?"; }} | while read -r line; do
             echo "$line"
-            case $line in Waiting*) {shlex.join(ROS2)} multicast send ;; esac
+            case $line in Waiting*) {ROS2_IN_SHELL} multicast send ;; esac
         done
     """
     both = run("unshare", "-n", "sh", "-c", receive_and_send)

@@ -7,6 +7,7 @@ import signal
 import sys
 
 import pytest
+from tests.programs import ROS2
 
 from ros2cli.main import main
 from turtlewire.wire import open_context
@@ -130,14 +131,13 @@ def test_names_of_the_graph(capsys):
 
 @pytest.mark.usefixtures("pose_publisher")
 def test_a_topic_that_is_nearly_right_where_the_type_is_given(run):
-    program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
     for verb, topic, said in (
         ("pub -w 0", "/turtel1/pose", "Did you mean: /turtle1/pose\n"),
         ("echo", "/turtel1/pose", "Did you mean: /turtle1/pose\n"),
         ("pub -w 0", "/qqq", ""),
     ):
         words = f"topic {verb} {topic} turtlesim/msg/Pose".split()
-        process = run(sys.executable, "-c", program, *words)
+        process = run(*ROS2, *words)
         process.wait_for("No node (subscribes|publishes)")
         process.signal_group(signal.SIGINT)
         process.wait()

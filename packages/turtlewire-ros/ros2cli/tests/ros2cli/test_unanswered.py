@@ -3,6 +3,7 @@
 import sys
 
 import pytest
+from tests.programs import ROS2
 
 from ros2cli.main import main
 from ros2cli.node.direct import DirectNode
@@ -105,11 +106,10 @@ executor.spin()
 
 def test_a_goal_ends_in_time_in_lyrical(run):
     run(sys.executable, "-c", GOALS).wait_for("ready")
-    program = "import sys; from ros2cli.main import main; sys.exit(main(sys.argv[1:]))"
     words = ("action", "send_goal", "/count", "example_interfaces/action/Fibonacci")
 
     def send(order, distro):
-        goal = (sys.executable, "-c", program, *words, f"{{order: {order}}}", "-t", "1")
+        goal = (*ROS2, *words, f"{{order: {order}}}", "-t", "1")
         return run(*goal, environment={"ROS_DISTRO": distro})
 
     late = "Timed out waiting for goal {} after 1 seconds."
@@ -152,8 +152,6 @@ def test_functions_of_the_packages_have_the_times(silent):
         assert found == (False, COMPONENT.format("list_nodes"))
 
 
-ROS2 = "from ros2cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"
-
 SERVER = """
 import threading
 import rclpy
@@ -190,7 +188,7 @@ SHORT_LEASE = {"CYCLONEDDS_URI": "<Discovery><LeaseDuration>3s</LeaseDuration></
 
 
 def ros2(run, *words):
-    return run(sys.executable, "-c", ROS2, *words)
+    return run(*ROS2, *words)
 
 
 @pytest.fixture
