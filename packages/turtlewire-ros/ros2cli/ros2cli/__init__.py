@@ -8,14 +8,13 @@ loaded.
 module              contents
 ==================  ========================================================
 `main`              the command and its help
-`arguments`         command lines of verbs as data
+`arguments`         command lines of verbs as data, and their values
 `completion`        completions for TAB, such as all interfaces
 `discovery`         joins a domain long enough to discover its nodes
 `graph`, `listing`  nodes and topics; the verbs ``list``, ``find``, ``type``
 `qos`               QoS on the command line
 `message_text`      messages as YAML or CSV; the options of ``echo``
 `json_lines`        the option ``--json``
-`values`            YAML values on the command line
 `output`            printing without control characters of other processes
 `suggestion`        suggestions for misspelt names
 `cli`               ``ros2`` called by programs

@@ -9,8 +9,8 @@ import time
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
+from ros2cli.arguments import unsigned_int as _unsigned_int
 from ros2cli.output import tell
-from ros2cli.values import unsigned_int as _unsigned_int
 from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ros2cli.arguments import argument
-from ros2cli.values import unsigned_int
+from ros2cli.arguments import argument, unsigned_int
 
 DEFAULT_TRUNCATE_LENGTH = 128
 

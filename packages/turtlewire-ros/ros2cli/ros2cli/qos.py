@@ -6,9 +6,8 @@ import argparse
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.arguments import add_arguments, argument
+from ros2cli.arguments import add_arguments, argument, positive_float, unsigned_int
 from ros2cli.json_lines import remark_printer
-from ros2cli.values import positive_float, unsigned_int
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, assignment
 from ros2cli.completion import packages
-from ros2cli.values import assignment
 
 if TYPE_CHECKING:
     from ros2cli.node.direct import DirectNode

@@ -6,6 +6,7 @@ import argparse
 from typing import Any
 
 from ros2cli import completion, qos
+from ros2cli.arguments import positive_float, positive_int
 from ros2cli.json_lines import remark_printer
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
@@ -15,7 +16,6 @@ from ros2cli.qos import (
     profile_configure_short_keys,
     qos_profile_from_short_keys,
 )
-from ros2cli.values import positive_float, positive_int
 from turtlewire.distro import KILTED, since
 
 __all__ = [

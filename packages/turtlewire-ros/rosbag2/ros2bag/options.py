@@ -7,9 +7,8 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, unsigned_int
 from ros2cli.completion import files
-from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
     from rclpy.qos import QoSProfile

@@ -8,11 +8,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ros2action.verb import VerbExtension
-from ros2cli.arguments import argument, exclusive
+from ros2cli.arguments import argument, exclusive, read_values, shortened
 from ros2cli.completion import action_names, action_types, goal_values
 from ros2cli.helpers import unsigned_int as non_negative_int
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.values import read_values, shortened
 from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:

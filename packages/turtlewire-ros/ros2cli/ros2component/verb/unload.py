@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.arguments import argument, timeout_argument
+from ros2cli.arguments import argument, timeout_argument, unsigned_int
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.node.direct import DirectNode
 from ros2cli.output import tell
-from ros2cli.values import unsigned_int
 from ros2component.containers import ask, container_node_names, require_container
 from ros2component.verb import VerbExtension
 

@@ -11,9 +11,8 @@ from contextlib import ExitStack, suppress
 from typing import TYPE_CHECKING, Any
 
 from rclpy.qos import QoSProfile
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, positive, positive_int
 from ros2cli.discovery import SPIN_ARGUMENTS
-from ros2cli.values import positive, positive_int
 from ros2doctor.verb import VerbExtension
 from ros2multicast.api import DEFAULT_GROUP, DEFAULT_PORT, GROUP_ARGUMENTS, MulticastSocket
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 
 from ros2cli import verb
-from ros2cli.arguments import add_arguments
+from ros2cli.arguments import add_arguments, positive_int
 from ros2cli.plugin_system import PLUGIN_SYSTEM_VERSION
-from ros2cli.values import positive_int
 from ros2multicast.api import DEFAULT_GROUP, DEFAULT_PORT, GROUP_ARGUMENTS
 
 __all__ = [

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2cli.arguments import argument
-from ros2cli.values import unsigned_int
+from ros2cli.arguments import argument, unsigned_int
 from ros2multicast.api import GROUP_ARGUMENTS, MulticastSocket
 from ros2multicast.verb import VerbExtension
 

@@ -7,10 +7,9 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, regular_expression
 from ros2cli.json_lines import JSON_ARGUMENT, print_json, remark_printer
 from ros2cli.node.direct import DirectNode
-from ros2cli.values import regular_expression
 from ros2param.parameters import TYPE_NAMES, ask_all, node_arguments
 from ros2param.verb import VerbExtension
 

@@ -8,12 +8,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.arguments import argument, exclusive
+from ros2cli.arguments import argument, exclusive, positive_float, read_values, shortened
 from ros2cli.completion import request_values, service_names, service_types
 from ros2cli.json_lines import JSON_ARGUMENT, print_json, remark_printer
 from ros2cli.node import NODE_NAME_PREFIX
 from ros2cli.qos import QOS_ARGUMENTS, asked_for, with_options
-from ros2cli.values import positive_float, read_values, shortened
 from ros2service.verb import VerbExtension
 
 if TYPE_CHECKING:

@@ -10,12 +10,11 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, positive_int
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.output import clear_terminal
 from ros2cli.qos import QOS_ARGUMENTS
-from ros2cli.values import positive_int
 from ros2topic.several import SEVERAL_TOPICS, choose, print_table, refused, subscribe
 from ros2topic.verb import VerbExtension
 

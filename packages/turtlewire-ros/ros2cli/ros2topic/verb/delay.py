@@ -7,12 +7,11 @@ import collections
 import threading
 from typing import Any
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, positive_int
 from ros2cli.completion import topic_names
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.qos import QOS_ARGUMENTS, with_options
-from ros2cli.values import positive_int
 from ros2topic.verb import VerbExtension
 from ros2topic.verb.hz import spread
 

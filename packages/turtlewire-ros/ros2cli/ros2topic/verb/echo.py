@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, positive_float
 from ros2cli.completion import topic_names, topic_types
 from ros2cli.discovery import STRATEGY_ARGUMENTS
 from ros2cli.helpers import OPTIONAL, select_topic
@@ -15,7 +15,6 @@ from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.message_text import DEFAULT_TRUNCATE_LENGTH, TEXT_ARGUMENTS, message_csv, message_yaml
 from ros2cli.output import clear_terminal, tell
 from ros2cli.qos import QOS_ARGUMENTS, choose_qos
-from ros2cli.values import positive_float
 from ros2topic.verb import VerbExtension
 
 if TYPE_CHECKING:

@@ -11,11 +11,10 @@ import time
 from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, positive_int
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.json_lines import JSON_ARGUMENT, print_json
 from ros2cli.output import clear_terminal
-from ros2cli.values import positive_int
 from ros2topic.several import SEVERAL_TOPICS, choose, print_table, refused, subscribe
 from ros2topic.verb import VerbExtension
 from turtlewire.distro import KILTED, since

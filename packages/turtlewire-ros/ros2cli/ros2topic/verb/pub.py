@@ -9,13 +9,20 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ros2cli.arguments import argument, exclusive
+from ros2cli.arguments import (
+    argument,
+    exclusive,
+    positive_float,
+    positive_int,
+    read_documents,
+    read_values,
+    shortened,
+)
+from ros2cli.arguments import unsigned_int as nonnegative_int
 from ros2cli.completion import files, message_values, topic_names, topic_types
 from ros2cli.discovery import SPIN_ARGUMENTS
 from ros2cli.output import tell
 from ros2cli.qos import QOS_ARGUMENTS, with_options
-from ros2cli.values import positive_float, positive_int, read_documents, read_values, shortened
-from ros2cli.values import unsigned_int as nonnegative_int
 from ros2topic.verb import VerbExtension
 from turtlewire.distro import KILTED, since
 

@@ -9,9 +9,7 @@ import pytest
 import yaml
 from tests.programs import ROS2, offered
 
-from ros2cli.completion import interface_names, prototype
-from ros2cli.suggestion import did_you_mean
-from ros2cli.values import (
+from ros2cli.arguments import (
     assignment,
     positive_float,
     positive_int,
@@ -20,6 +18,8 @@ from ros2cli.values import (
     shortened,
     unsigned_int,
 )
+from ros2cli.completion import interface_names, prototype
+from ros2cli.suggestion import did_you_mean
 from rosidl_runtime_py import set_message_fields
 from rosidl_runtime_py.utilities import get_message
 from turtlewire.wire import open_context
@@ -73,7 +73,7 @@ def test_aliases_that_stand_for_too_much_are_refused(text):
 
 def test_aliases_of_ordinary_size_are_taken(monkeypatch):
     assert read_values("{a: &x [1, 2], b: *x}") == {"a": [1, 2], "b": [1, 2]}
-    monkeypatch.setattr("ros2cli.values._MOST_COPIES", 100)
+    monkeypatch.setattr("ros2cli.arguments._MOST_COPIES", 100)
     assert len(read_values(f"{{data: [{'1, ' * 1_000}]}}")["data"]) == 1_000
 
 

@@ -19,9 +19,8 @@ from ros2bag.options import (
     several,
 )
 from ros2bag.verb import VerbExtension
-from ros2cli.arguments import argument
+from ros2cli.arguments import argument, unsigned_int
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.values import unsigned_int
 
 __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "BurstVerb", "main"]
 

@@ -22,9 +22,8 @@ from ros2bag.options import (
     several,
 )
 from ros2bag.verb import VerbExtension
-from ros2cli.arguments import argument, exclusive
+from ros2cli.arguments import argument, exclusive, unsigned_int
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.values import unsigned_int
 
 if TYPE_CHECKING:
     from rosbag2_py import PlayOptions

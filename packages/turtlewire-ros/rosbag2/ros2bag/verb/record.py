@@ -21,10 +21,9 @@ from ros2bag.options import (
 )
 from ros2bag.verb import VerbExtension
 from ros2cli import arguments
-from ros2cli.arguments import argument, exclusive
+from ros2cli.arguments import argument, exclusive, positive_int, unsigned_int
 from ros2cli.completion import action_names, files, message_types, service_names, topic_names
 from ros2cli.node import NODE_NAME_PREFIX
-from ros2cli.values import positive_int, unsigned_int
 from turtlewire.distro import KILTED, LYRICAL, since
 
 if TYPE_CHECKING:
