@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.event_handlers import OnShutdown
@@ -20,15 +20,7 @@ class EnableRmwIsolation(Action):
     """Gives processes and contexts that start afterwards a ROS domain that no other process uses.
 
     It sets ``ROS_DOMAIN_ID``, and restores it when the launch shuts down.
-
-    Args:
-        **kwargs: See :class:`Action`.
     """
-
-    def __init__(self, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self._reservation = contextlib.ExitStack()
-        self._former: str | None = None
 
     def execute(self, context: LaunchContext) -> None:
         """Choose the domain.
@@ -36,14 +28,17 @@ class EnableRmwIsolation(Action):
         Raises:
             RuntimeError: All domains from 1 to 101 are in use.
         """
-        domain = self._reservation.enter_context(reserved_domain())
-        self._former = context.environment.get(_VARIABLE)
+        reservation = contextlib.ExitStack()
+        domain = reservation.enter_context(reserved_domain())
+        former = context.environment.get(_VARIABLE)
         context.environment[_VARIABLE] = str(domain)
-        context.register_event_handler(OnShutdown(on_shutdown=self._end))
 
-    def _end(self, _event: Event, context: LaunchContext) -> None:
-        if self._former is None:
-            context.environment.pop(_VARIABLE, None)
-        else:
-            context.environment[_VARIABLE] = self._former
-        self._reservation.close()
+        def end(_event: Event, context: LaunchContext) -> None:
+            if former is None:
+                context.environment.pop(_VARIABLE, None)
+            else:
+                context.environment[_VARIABLE] = former
+            reservation.close()
+
+        # The newest handler comes first: two such actions end in reverse order.
+        context.register_event_handler(OnShutdown(on_shutdown=end))

@@ -17,16 +17,18 @@ PROGRAM = "import os, pathlib; pathlib.Path({!r}).write_text(os.environ['ROS_DOM
 
 
 @pytest.mark.parametrize("former", [None, "0"])
-def test_the_processes_have_a_domain_of_their_own(monkeypatch, tmp_path, former):
+@pytest.mark.parametrize("times", [1, 2])
+def test_the_processes_have_a_domain_of_their_own(monkeypatch, tmp_path, former, times):
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
     if former is not None:
         monkeypatch.setenv("ROS_DOMAIN_ID", former)
     file = tmp_path / "domain"
+    isolation = [EnableRmwIsolation()] * times
     with reserved_domain() as taken:  # the first free one, which the launch would take
         service = LaunchService(noninteractive=True)
         node = ExecuteProcess(cmd=[sys.executable, "-c", PROGRAM.format(str(file))])
-        service.include_launch_description(LaunchDescription([EnableRmwIsolation(), node]))
+        service.include_launch_description(LaunchDescription([*isolation, node]))
         assert service.run() == 0
         assert 1 <= int(file.read_text()) <= 101
         assert file.read_text() != str(taken)

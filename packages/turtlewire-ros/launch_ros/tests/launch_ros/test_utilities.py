@@ -301,7 +301,6 @@ def test_types_of_text_or_substitutions(module):
 
 # Extensions of `Node`, which other packages add by entry points.
 
-
 EXTENSION = """
 from launch.substitutions import EnvironmentVariable
 from launch_ros.actions.node import NodeActionExtension

@@ -45,3 +45,6 @@ def test_ros2_pkg_xml_says_so_in_one_line(tmp_path, monkeypatch, capsys):
         "",
         f"{manifest}:2: <br> is never closed; remove it, or add </br>\n",
     )
+    manifest.unlink()
+    assert main(["pkg", "xml", "broken"]) == 1
+    assert capsys.readouterr() == ("", "Package XML manifest not found\n")

@@ -28,8 +28,11 @@ def main(args: argparse.Namespace) -> str | None:
     if share is None:
         return f"{PACKAGE_NOT_FOUND}{package_meant(args.package_name)}"
     path = os.path.join(share, "package.xml")
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
+    try:
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+    except FileNotFoundError:
+        return PACKAGE_XML_NOT_FOUND
     if args.tag is None:
         print(text)
         return None
