@@ -400,9 +400,9 @@ the `print()` output of children waits in a buffer
 a launched program has a pipe as its input
   launch_ros/test_examples.py test_a_launched_teleop_reads_the_terminal
 SIGTERM of launch may leave orphans
-  launch/test_interrupts.py test_sigterm_stops_the_children_too
+  launch/test_launch_service.py test_sigterm_stops_the_children_too
 grandchildren, and processes that ignore signals, outlive a launch that ends or is killed
-  launch/test_interrupts.py test_not_even_sigkill_leaves_children
+  launch/test_launch_service.py test_not_even_sigkill_leaves_children
   chaos/test_processes.py test_ros2_run_leaves_nothing test_ros2_launch_leaves_nothing
 pytest imports launch at each start
   launch_testing/test_runs.py test_plain_tests_do_not_wait_for_launch

@@ -269,7 +269,6 @@ def test_the_scope_of_a_launch_fixture():
 
 # The how-to page about launch tests, run.
 
-
 PAGE = HOW_TO / "test_a_node.md"
 
 

@@ -219,7 +219,6 @@ def test_without_the_index(tmp_path, monkeypatch, capsys):
 
 # The checks and reports of `ros2doctor.api`, including other packages'.
 
-
 CHECKS = """
 from ros2doctor.api import DoctorCheck, DoctorReport, Report, Result
 

@@ -117,7 +117,6 @@ def test_unknown_options_show_the_usage_of_the_verb(capsys):
 
 # Commands, verbs and options that other packages add by entry points, as ROS 2's do.
 
-
 ENTRY_POINTS = """
 [ros2cli.command]
 greet = greeting.command:GreetCommand

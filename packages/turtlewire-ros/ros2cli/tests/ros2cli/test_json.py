@@ -381,7 +381,6 @@ def test_the_page_has_all_verbs():
 
 # The commands of docs/how-to/relay.md.
 
-
 RELAY = (HOW_TO / "relay.md").read_text()
 
 

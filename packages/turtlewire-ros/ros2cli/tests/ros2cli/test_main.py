@@ -244,7 +244,6 @@ print(sorted(name for name in sys.modules if name.startswith("ros2") and ".verb.
 
 # The warning of a command whose node can discover nothing.
 
-
 WARNING = """\
 Warning: ROS_AUTOMATIC_DISCOVERY_RANGE=OFF with no ROS_STATIC_PEERS configured.
 No discovery mechanism is available. Results will be empty.

@@ -99,7 +99,6 @@ def test_hidden_nodes_are_managed_when_asked_for(run):
 
 # `ros2 component` with a container of Python nodes.
 
-
 MODULE = """
 from rclpy.node import Node
 
@@ -185,7 +184,6 @@ def test_registered_types(component, tmp_path, monkeypatch):
 
 
 # `ros2 param get` and `set` of several parameters.
-
 
 NODES = """
 import rclpy

@@ -213,7 +213,6 @@ def test_unechoable_topics_are_rejected(run, capsys):
 
 # `ros2 action find` and `ros2 action echo` with a server and a client.
 
-
 COUNTER = """
 import rclpy
 from example_interfaces.action import Fibonacci

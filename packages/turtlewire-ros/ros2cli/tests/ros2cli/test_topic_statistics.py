@@ -227,7 +227,6 @@ def test_lines_of_definitions():
 
 # `ros2 topic hz` and `bw` of several topics.
 
-
 CLEAR = "\x1b[H\x1b[2J"
 
 

@@ -302,7 +302,6 @@ def test_a_class_that_is_no_service(run):
 
 # Commands end with the reason when a server would misread their requests.
 
-
 LONG = 60_000_000_000
 WHY = (
     "service {} is not called: its server runs on a middleware that announces no serviceid, which "
