@@ -25,5 +25,6 @@ module              contents
 `node`              the rclpy node of verbs, under ROS 2's names
 `xmlrpc`            remote calls on this host
 `daemon`            answers these calls about the graph
+`background`        runs a function in a process that stays
 ==================  ========================================================
 """

@@ -26,7 +26,7 @@ class DaemonNode:
     def __init__(self, args: argparse.Namespace | None) -> None:
         # Here, because modules of extensions import this one only for `add_arguments`.
         import ros2cli.xmlrpc.marshal.rclpy  # noqa: F401  enters the types of the results
-        from ros2cli.daemon import get_xmlrpc_server_url
+        from ros2cli.node.server import get_xmlrpc_server_url
         from ros2cli.xmlrpc.client import ServerProxy
 
         self._args = args
@@ -113,8 +113,8 @@ def spawn_daemon(
         OSError: The port cannot be opened.
         RuntimeError: The process did not start.
     """
-    from ros2cli.daemon import make_xmlrpc_server, serve_and_close
-    from ros2cli.daemon.daemonize import daemonize
+    from ros2cli.background import daemonize
+    from ros2cli.node.server import make_xmlrpc_server, serve_and_close
 
     try:
         # Here and not in the process: only one of two that are started at once gets the port.
