@@ -55,9 +55,9 @@ TF, in Lyrical
   tf2_ros/test_buffer_server.py test_a_time_message_is_refused_in_lyrical
   tf2_ros/test_tools.py test_lyrical_ignores_what_are_no_flags
 rclpy, from Kilted on
-  rclpy/test_distros.py test_a_call_that_takes_too_long test_a_node_after_the_shutdown_of_its_context test_results_of_actions_are_kept_for test_warn_of_a_logger test_a_profile_without_history_and_depth test_a_goal_of_another_type
+  rclpy/test_distros.py test_changes
 rclpy, in Lyrical
-  rclpy/test_distros.py test_warn_of_a_logger test_modules_that_lyrical_dropped test_a_declaration_of_a_name_alone test_feedback_after_the_end_of_a_goal test_services_announce_their_hash test_clocks_of_ros_time test_a_callback_of_a_wrong_shape
+  rclpy/test_distros.py test_changes test_modules_that_lyrical_dropped test_a_declaration_of_a_name_alone test_services_announce_their_hash
 messages, in Lyrical
   msg/test_distro_interfaces.py test_constructors_of_lyrical_refuse_unknown_keywords_and_take_none
 message_filters, from Kilted on
@@ -96,7 +96,7 @@ bags, in Lyrical
 `ros2 bag`, from Kilted on
   rosbag2_transport/test_actions.py test_from_kilted_on_actions_are_neither_topics_nor_services test_the_text_about_a_bag_from_kilted_on
 parameter files and `-p`, in Lyrical
-  rclpy/test_parameter_tags.py test_tags_choose_the_type_in_lyrical test_up_to_kilted_only_the_tag_of_strings_counts
+  rclpy/test_distros.py test_tags_choose_the_type_in_lyrical test_up_to_kilted_only_the_tag_of_strings_counts
 URDF, in Lyrical
   urdf/test_versions.py test_versions_that_lyrical_reads test_up_to_kilted_there_is_only_version_1_0 test_an_origin_with_a_quaternion test_capsules test_limits_of_version_1_2
 `ros2topic.api.add_qos_arguments`, from Kilted on
@@ -105,6 +105,10 @@ robot_state_publisher, in Lyrical
   robot_state_publisher/test_node.py test_the_description_from_a_topic test_frequencies_are_more_than_zero_in_lyrical test_a_file_is_no_description_in_lyrical
 `ros2 doctor --report`
   ros2cli/test_doctor.py test_the_report_has_facts
+an integer that 64 bits cannot hold raises `AssertionError`, or `OverflowError` under `-O`, after the checks
+  rclpy/test_parameters.py test_integers_that_no_message_can_hold_are_refused
+`message_filters` warns of each message without a stamp
+  message_filters/test_message_filters.py test_messages_without_a_stamp_are_refused
 Python errors have a message
   rclpy/test_mistakes.py test_hints_are_notes
 a service with a server on Fast DDS is called, and nothing answers
@@ -204,7 +208,7 @@ SIGTERM does not end `AsyncNode.run()`, because nothing wakes the loop (Lyrical)
   rclpy/test_async_services.py test_a_call
   rclpy/test_async_node.py test_waiting_for_a_node
 content filters of subscriptions work with `rmw_fastrtps_cpp`
-  rclpy/test_surface.py test_a_subscription_says_that_nothing_is_filtered
+  rclpy/test_surface.py test_content_filters_are_refused
 
 `ExtrapolationException` has only a message
   tf/test_errors.py test_attributes

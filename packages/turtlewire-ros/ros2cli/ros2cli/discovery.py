@@ -73,7 +73,7 @@ def wait_until_discovered(graph: Graph, spin_time: float | None = None) -> None:
     only_this_host = (
         sys.platform == "linux"
         and discovery().range in (Range.LOCALHOST, Range.OFF)
-        and not discovery().static_peers
+        and not discovery().asked_peers
     )
     answer_time = 0.0 if only_this_host else _ANSWER_S
     check_discovery_configuration()
