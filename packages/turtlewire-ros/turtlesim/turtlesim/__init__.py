@@ -5,13 +5,13 @@ module                               contents
 ===================================  =========================================================
 `turtlesim_node`, `options`          the simulator's node; its command line
 `pace`                               the speed of the simulation, and pauses
-`model`, `physics`                   the turtles and their world; the formulas of one tick
+`model`, `physics`                   the turtles and their world; the formulas of a tick and a line
 `crowd`                              many turtles in one tick
-`path`, `path_bulk`, `pen_line`      pixels that pens paint: one line, many lines, their shape
-`turtle_endpoints`, `rotate_action`  topics and services of one turtle; its action
+`path`, `path_bulk`                  pixels that pens paint: one line, many lines
+`turtle_endpoints`                   topics, services and action of one turtle
 `missing_turtles`                    turtles that are referenced but were never spawned
 `screen`, `picture`                  the page in the browser; the data that it draws
-`drawing`, `looks`                   the pens' lines, also for browsers that connect later; their
+`drawing`                            the pens' lines, also for browsers that connect later; their
                                      colours
 `page_commands`, `page_actions`      the commands of the page; their execution
 `transform_view`                     frames and transforms on the page

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from turtlesim.looks import shown_pen
+from turtlesim.drawing import shown_pen
 from turtlesim.physics import FIELD_SIZE, PIXELS_PER_METRE, clamp, move, pixel_of, published, turn
 
 if TYPE_CHECKING:

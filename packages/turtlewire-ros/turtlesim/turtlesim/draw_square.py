@@ -129,14 +129,10 @@ class DrawSquare(Node):
 
 def main(args: list[str] | None = None) -> None:
     """Run until Ctrl-C."""
-    rclpy.init(args=args)
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
-        try:
-            with DrawSquare() as node:
-                node.reset_and_start()
-                rclpy.spin(node)
-        finally:
-            rclpy.try_shutdown()
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+        node = DrawSquare()
+        node.reset_and_start()
+        rclpy.spin(node)
 
 
 if __name__ == "__main__":

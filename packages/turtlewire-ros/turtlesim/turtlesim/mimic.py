@@ -30,13 +30,8 @@ class MimicNode(Node):
 
 def main(args: list[str] | None = None) -> None:
     """Run until Ctrl-C."""
-    rclpy.init(args=args)
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
-        try:
-            with MimicNode() as node:
-                rclpy.spin(node)
-        finally:
-            rclpy.try_shutdown()
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+        rclpy.spin(MimicNode())
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """The picture that the pens draw, which the colour sensor reads.
 
 Of 5,579 pixels that the real turtlesim painted (``tests/golden/sim``), 3 differ.
-:mod:`turtlesim.pen_line` says which pixels a line covers.
+:mod:`turtlesim.physics` says which pixels a line covers.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from turtlesim.model import IMAGE_SIZE, Pen, Stroke
-from turtlesim.pen_line import boundary, corners, crossing, length_of
+from turtlesim.physics import boundary, corners, crossing, length_of
 
 if TYPE_CHECKING:
     import numpy as np

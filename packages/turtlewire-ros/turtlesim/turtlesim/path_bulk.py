@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from turtlesim.pen_line import boundary, corners, crossing, length_of
-from turtlesim.physics import IMAGE_SIZE
+from turtlesim.physics import IMAGE_SIZE, boundary, corners, crossing, length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -12,8 +12,7 @@ import json
 import struct
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlesim.drawing import StrokeHistory
-from turtlesim.looks import shown_pen
+from turtlesim.drawing import StrokeHistory, shown_pen
 from turtlewire.web.packets import encode_packet
 
 if TYPE_CHECKING:

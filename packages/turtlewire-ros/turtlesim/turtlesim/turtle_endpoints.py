@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import Twist
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.event_handler import PublisherEventCallbacks
-from turtlesim.model import Pen
+from rclpy.task import Future
+from turtlesim.action import RotateAbsolute
+from turtlesim.model import Pen, RotationState
 from turtlesim.msg import Color, Pose
-from turtlesim.rotate_action import RotateAction
 from turtlesim.srv import SetPen, TeleportAbsolute, TeleportRelative
 
 if TYPE_CHECKING:
+    from rclpy.action.server import ServerGoalHandle
     from rclpy.node import Node
-    from turtlesim.model import Turtle, TurtleTick
+    from turtlesim.model import Rotation, Turtle, TurtleTick
     from turtlesim.path import PathImage
 
 #: History depth of all topics of a turtle; reliable and volatile, as a mere depth says.
@@ -69,7 +73,6 @@ class TurtleEndpoints:
                 TeleportAbsolute, f"{name}/teleport_absolute", self._on_teleport_absolute
             ),
         ]
-
         self._rotate = RotateAction(node, turtle)
 
     def publish(self, tick: TurtleTick, path: PathImage) -> None:
@@ -157,3 +160,95 @@ class TurtleEndpoints:
 def are_finite(*numbers: float) -> bool:
     """Return True if no number is NaN or too large for the arithmetic of a pose."""
     return all(abs(number) <= _LARGEST for number in numbers)  # also false for NaN
+
+
+class _Goal:
+    """A goal, its rotation, and the future that its execution awaits."""
+
+    def __init__(self, handle: ServerGoalHandle, rotation: Rotation) -> None:
+        self.handle = handle
+        self.rotation = rotation
+        self.ended = Future()
+
+
+class RotateAction:
+    """Serves the action ``rotate_absolute`` of a turtle. Not thread-safe.
+
+    The simulator calls :meth:`report` at each tick.
+    """
+
+    def __init__(self, node: Node, turtle: Turtle) -> None:
+        self._node = node
+        self._turtle = turtle
+        self._goal: _Goal | None = None
+        self._server = ActionServer(
+            node,
+            RotateAbsolute,
+            f"{turtle.name}/rotate_absolute",
+            self._execute,
+            goal_callback=self._on_goal,
+            cancel_callback=self._on_cancel,
+        )
+
+    def report(self, rotation: Rotation) -> None:
+        """Send feedback on the goal of ``rotation`` after a tick, and end it with its rotation."""
+        goal = self._goal
+        if goal is None or goal.rotation is not rotation:
+            return
+        if rotation.state is RotationState.CANCELED:
+            self._node.get_logger().info("Rotation goal canceled")
+            self._end(goal)
+            return
+        goal.handle.publish_feedback(RotateAbsolute.Feedback(remaining=rotation.remaining))
+        if rotation.state is RotationState.SUCCEEDED:
+            self._node.get_logger().info("Rotation goal completed successfully")
+            self._end(goal)
+
+    def abort(self) -> None:
+        """Abort the goal: its rotation was aborted."""
+        if self._goal is not None:
+            self._end(self._goal)
+
+    def destroy(self) -> None:
+        """Abort the goal, if there is one, and leave the graph."""
+        if self._goal is not None:
+            self._goal.rotation.state = RotationState.ABORTED
+            self._end(self._goal)
+        self._server.destroy()
+
+    def _on_goal(self, goal: Any) -> GoalResponse:
+        if math.isfinite(goal.theta):
+            return GoalResponse.ACCEPT
+        self._node.get_logger().error(
+            f"Cannot rotate [{self._turtle.name}] to a heading that is not finite: {goal.theta}"
+        )
+        return GoalResponse.REJECT
+
+    def _on_cancel(self, handle: ServerGoalHandle) -> CancelResponse:
+        if self._goal is not None and self._goal.handle == handle:
+            # The next tick of the model carries it out.
+            self._goal.rotation.cancel_requested = True
+        return CancelResponse.ACCEPT
+
+    async def _execute(self, handle: ServerGoalHandle) -> Any:
+        rotation, aborted = self._turtle.rotate_to(handle.request.theta)
+        if aborted is not None:
+            self._node.get_logger().warning(
+                "Rotation goal received before a previous goal finished. Aborting previous goal"
+            )
+            self.abort()
+        # The request to cancel may have come between the acceptance and here.
+        rotation.cancel_requested = handle.is_cancel_requested
+        goal = self._goal = _Goal(handle, rotation)
+        await goal.ended
+        return RotateAbsolute.Result(delta=rotation.delta)
+
+    def _end(self, goal: _Goal) -> None:
+        self._goal = None
+        if goal.rotation.state is RotationState.SUCCEEDED:
+            goal.handle.succeed()
+        elif goal.rotation.state is RotationState.CANCELED:
+            goal.handle.canceled()
+        else:
+            goal.handle.abort()
+        goal.ended.set_result(None)

@@ -170,3 +170,8 @@ def open_page(browser):
     for context in contexts:
         context.close()
     assert errors == []
+
+
+@pytest.fixture
+def page(simulator, open_page):
+    return open_page(simulator.screen.url)

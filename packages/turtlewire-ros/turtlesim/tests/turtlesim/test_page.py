@@ -43,8 +43,7 @@ from .seen import (
 )
 
 
-def test_the_turtle_is_shown_where_it_is(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_the_turtle_is_shown_where_it_is(simulator, page):
     middle = simulator.turtle1.x
     wait_for_text(page, "#roster", "turtle1")
     wait_for_text(page, "#roster", "5.54")
@@ -63,8 +62,7 @@ def test_another_device_is_served_below_the_token(make_simulator, open_page):
     assert simulator.commands
 
 
-def test_an_arrow_key_is_one_command_and_the_pen_draws(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_an_arrow_key_is_one_command_and_the_pen_draws(simulator, page):
     middle = simulator.turtle1.x
     page.keyboard.press("ArrowUp")
     wait_for_pixel(page, "turtles", middle + 2.0, middle, is_opaque)
@@ -94,8 +92,7 @@ def test_the_pad_drives_by_mouse_touch_and_keyboard(simulator, open_page):
     assert simulator.commands[:-1] == 3 * [page_commands.Drive("turtle1", 2.0, 0.0)]
 
 
-def test_a_button_that_is_held_repeats_its_command(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_a_button_that_is_held_repeats_its_command(simulator, page):
     page.get_by_role("button", name="turn left").hover()
     page.mouse.down()
     wait_until(lambda: len(simulator.commands) > 3)
@@ -103,8 +100,7 @@ def test_a_button_that_is_held_repeats_its_command(simulator, open_page):
     assert {*simulator.commands} == {page_commands.Drive("turtle1", 0.0, 2.0)}
 
 
-def test_keys_and_buttons_turn_to_a_heading(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_keys_and_buttons_turn_to_a_heading(simulator, page):
     headings = {
         "g": 0.0,
         "t": 0.7854,
@@ -149,9 +145,8 @@ def test_another_turtle_can_be_chosen(simulator, open_page):
     wait_for_text(page, "#words", "of turtle1")
 
 
-def test_a_crowd_moves_and_draws(simulator, open_page):
+def test_a_crowd_moves_and_draws(simulator, page):
     """More than a hundred come as arrays, and are drawn turned beforehand."""
-    page = open_page(simulator.screen.url)
     for k in range(150):
         place = 2.0 + 0.02 * k
         simulator._queue.put(page_commands.Spawn(place, place, 0.0, f"member{k}"))
@@ -190,8 +185,7 @@ def test_a_lost_simulator_is_said_and_found_again(simulator, make_simulator, ope
     wait_for_pixel(page, "turtles", 2.0, 3.0, is_opaque)
 
 
-def test_a_missing_turtle_is_offered(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_a_missing_turtle_is_offered(simulator, page):
     assert not page.is_visible("#hint")
     simulator.missing = ("turtle2",)
     page.get_by_role("button", name="Spawn turtle2").click()
@@ -220,8 +214,7 @@ def test_a_turtle_is_chosen_and_dragged_on_the_field(simulator, open_page):
     wait_for_pixel(page, "turtles", 8.0, 3.0, is_opaque)
 
 
-def test_a_new_turtle_is_placed_on_the_field(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_a_new_turtle_is_placed_on_the_field(simulator, page):
     page.click("#spawn")
     page.keyboard.press("Escape")
     page.mouse.click(*on_screen(page, 2.0, 2.0))  # nothing is being placed any more
@@ -263,8 +256,7 @@ def test_a_finger_chooses_and_places_turtles(simulator, open_page):
     wait_for_pixel(page, "turtles", 8.0, 8.0, is_opaque)
 
 
-def test_following_keeps_the_driven_turtle_in_the_middle(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_following_keeps_the_driven_turtle_in_the_middle(simulator, page):
     page.click("#follow")
     simulator.turtle1.teleport_absolute(3.0, 7.0, 0.0)
     middle = 499 / 90
@@ -277,8 +269,7 @@ def test_following_keeps_the_driven_turtle_in_the_middle(simulator, open_page):
     assert pixel(page, "turtles", middle, middle)[3] == 0
 
 
-def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, page):
     assert page.is_visible("#no-frames")
     now = time.time_ns()
     for age_s in (2.0, 1.0, 0.0):
@@ -313,16 +304,7 @@ def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, ope
     )
 
 
-def test_the_background_follows_the_parameters(simulator, open_page):
-    page = open_page(simulator.screen.url)
-    simulator.background = (200, 30, 30)
-    wait_for_pixel(
-        page, "ground", 2.5, 2.5, lambda colour: math.dist(colour[:3], (200, 30, 30)) < 45
-    )
-
-
-def test_a_screen_reader_finds_its_way(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_a_screen_reader_finds_its_way(simulator, page):
     page.get_by_role("status").get_by_text("live").wait_for()
     page.get_by_role("cell", name="5.54").first.wait_for()
     page.get_by_role("img", name="The field, 11 by 11 metres, with turtle1 at 5.5, 5.5").wait_for()

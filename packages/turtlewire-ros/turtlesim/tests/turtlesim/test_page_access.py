@@ -56,9 +56,8 @@ def test_focused_elements_are_visible(simulator, open_page, scheme):
     assert weak_rings(page) == {}
 
 
-def test_focus_on_the_field_is_seen_on_every_colour(simulator, open_page):
+def test_focus_on_the_field_is_seen_on_every_colour(simulator, page):
     """Of two rings with a contrast of 9:1, one has at least 3:1 to whatever is around them."""
-    page = opened(simulator, open_page)
     for name in ("axes", "follow", "picture"):
         page.focus(f"#{name}")
         page.keyboard.press("Shift+Tab")
@@ -107,8 +106,7 @@ def test_names_are_where_a_screen_reader_reads_them(simulator, open_page):
     assert opened(simulator, open_page).evaluate(UNREAD_NAMES) == []
 
 
-def test_the_size_of_texts_in_the_browser_counts(simulator, open_page):
-    page = opened(simulator, open_page)
+def test_the_size_of_texts_in_the_browser_counts(simulator, page):
     assert root_size_with(page, 16) == pytest.approx(15)
     assert root_size_with(page, 24) == pytest.approx(22.5)
 
@@ -143,8 +141,7 @@ def commands_after(simulator, page, *keys) -> list:
     return simulator.commands[:-1]
 
 
-def test_arrow_keys_scroll_a_list_that_has_the_focus(simulator, open_page):
-    page = opened(simulator, open_page)
+def test_arrow_keys_scroll_a_list_that_has_the_focus(simulator, page):
     page.focus("#frames .scroll")
     assert commands_after(simulator, page, "ArrowDown", "ArrowUp", "ArrowLeft", "e") == []
     page.evaluate("document.activeElement.blur()")
@@ -160,8 +157,7 @@ def test_arrow_keys_on_a_name_drive_the_turtle_of_that_name_only(simulator, open
     assert commands_after(simulator, page, "ArrowUp") == [page_commands.Drive("turtle2", 2.0, 0.0)]
 
 
-def test_disabled_letter_keys_do_not_turn_the_turtle(simulator, open_page):
-    page = opened(simulator, open_page)
+def test_disabled_letter_keys_do_not_turn_the_turtle(simulator, page):
     turn = [page_commands.Rotate("turtle1", 0.7854)]
     assert page.is_checked("#letter-keys")
     assert commands_after(simulator, page, "t") == turn

@@ -44,12 +44,6 @@ BOXES = """(parts) => Object.fromEntries(parts.map((part) => {
 SIZES = {"desktop": (1200, 800), "phone": (360, 740)}
 
 
-def pose_is_shown(page, text: str) -> None:
-    page.wait_for_function(
-        "(text) => document.querySelector('#roster').textContent.includes(text)", arg=text
-    )
-
-
 @pytest.fixture
 def scene(simulator):
     """Two turtles and a drawing."""
@@ -63,7 +57,7 @@ def test_the_picture_is_what_is_seen(scene, open_page):
     page = open_page(
         scene.screen.url, reduced_motion="reduce", viewport={"width": 1200, "height": 500}
     )
-    pose_is_shown(page, "9.00")
+    wait_for_text(page, "#roster", "9.00")
     after_two_frames(page)
     with page.expect_download() as download:
         page.click("#picture")
@@ -81,8 +75,8 @@ def test_every_size_and_scheme(scene, open_page, size, scheme):
     width, height = SIZES[size]
     options = {"viewport": {"width": width, "height": height}, "device_scale_factor": 0.5}
     page = open_page(scene.screen.url, color_scheme=scheme, reduced_motion="reduce", **options)
-    pose_is_shown(page, "9.00")
-    page.wait_for_function("() => document.querySelector('#words').textContent.includes('turtle2')")
+    wait_for_text(page, "#roster", "9.00")
+    wait_for_text(page, "#words", "turtle2")
     after_two_frames(page)
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     boxes = page.evaluate(BOXES, list(PARTS))
@@ -199,8 +193,7 @@ def test_notices_do_not_move_the_field(simulator, open_page):
     assert box(page, "#placing")[3] <= top
 
 
-def test_names_are_in_their_natural_order_and_found_by_a_search(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_names_are_in_their_natural_order_and_found_by_a_search(simulator, page):
     assert not page.is_visible("#find-turtle")
     for k in range(2, 13):
         simulator.world.spawn(1.0 + k / 2, 2.0, 0.5, f"turtle{k}")

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from turtlesim import page_commands
-from turtlesim.looks import look_of, shown_pen
+from turtlesim.drawing import look_of, shown_pen
 from turtlesim.model import DEFAULT_PEN, TICK_NS, Pen, World
 from turtlesim.pace import Pace, hold
 
@@ -27,8 +27,7 @@ def is_colour(*wanted: int, within: float = 45.0):
     return lambda colour: math.dist(colour[:3], wanted) < within
 
 
-def test_the_pen_of_the_driven_turtle(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_the_pen_of_the_driven_turtle(simulator, page):
     assert page.input_value("#pen-colour") == "#72c3b0"
     assert page.input_value("#pen-width") == "3"
     set_colour(page, "#pen-colour", "#ff8800")
@@ -52,8 +51,7 @@ def test_the_pen_of_the_driven_turtle(simulator, open_page):
     assert kinds == {page_commands.PenChange, page_commands.Drive}
 
 
-def test_a_pen_that_a_node_sets_is_shown(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_a_pen_that_a_node_sets_is_shown(simulator, page):
     simulator.turtle1.set_pen(Pen(1, 2, 3, 7), off=False)
     simulator.turtle1.set_pen(Pen(0, 0, 0, 0), off=True)  # lifted, it keeps its colour
     page.wait_for_selector("#pen-up[aria-pressed=true]")
@@ -65,8 +63,7 @@ def test_a_pen_that_a_node_sets_is_shown(simulator, open_page):
     assert page.input_value("#pen-colour") == "#ecb296"
 
 
-def test_the_background(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_the_background(simulator, page):
     assert page.input_value("#background") == "#4556ff"
     set_colour(page, "#background", "#226644")
     wait_for_pixel(page, "ground", 2.5, 2.5, is_colour(0x22, 0x66, 0x44))
@@ -75,8 +72,7 @@ def test_the_background(simulator, open_page):
     page.wait_for_function("() => document.getElementById('background').value === '#090807'")
 
 
-def test_pause_and_speed(simulator, open_page):
-    page = open_page(simulator.screen.url)
+def test_pause_and_speed(simulator, page):
     page.select_option("#speed", "2")
     wait_for_text(page, "#connection", "live, 2 ")
     page.click("#pause")

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import threading
-import time
-
 import pytest
 
 from geometry_msgs.msg import TransformStamped
@@ -14,6 +11,8 @@ from turtlewire import msg
 from turtlewire.tf import listener
 from turtlewire.wire import open_context
 from turtlewire.wire.base import TypeId
+
+from .seen import wait_until
 
 
 @pytest.fixture
@@ -59,13 +58,6 @@ def view(context):
     view = TransformView(context, "/", lambda: 105_000_000_000)
     yield view
     view.close()
-
-
-def wait_until(is_done) -> None:
-    deadline = time.monotonic() + 60
-    while not is_done():
-        assert time.monotonic() < deadline
-        threading.Event().wait(0.01)
 
 
 def test_frames_with_rate_age_and_kind(view, broadcaster):

@@ -332,13 +332,6 @@ def test_names_are_relative_to_the_namespace(make_world):
     assert world.call(Spawn, "/turtlesim1/spawn").name == "turtle2"
 
 
-def test_turtles_are_stepped_in_the_order_of_their_names(world):
-    """A turtle's stroke is under the sensor of a later one in the same tick, as in the original."""
-    world.call(Spawn, "/spawn", x=2.0, y=2.0, name="b")
-    world.call(Spawn, "/spawn", x=2.0, y=2.0, name="a")
-    assert [tick.turtle.name for tick in world.sim.world.step(0)] == ["a", "b", "turtle1"]
-
-
 class TestMissingTurtles:
     @pytest.fixture(autouse=True)
     def impatient(self, monkeypatch):

@@ -17,8 +17,7 @@ from __future__ import annotations
 import heapq
 import itertools
 import random
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
@@ -26,21 +25,12 @@ from tf2_ros import TransformBroadcaster
 from turtlewire import msg
 
 if TYPE_CHECKING:
+    from turtlesim.testing.stage import Stage
     from turtlewire.wire.local.bus import Bus, LocalSender, Message
 
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _STATIC = "/tf_static"
 _TOPICS = {"/tf", _STATIC}
-
-
-class Nodes(Protocol):
-    """The part of :class:`.Simulation` that faults use."""
-
-    def start(self, make_node: Callable[[], Node], **parameters: object) -> Node:
-        """Make a node with parameters, and let it take part."""
-
-    def remove(self, node: Node) -> None:
-        """End a node."""
 
 
 class Fault:
@@ -53,10 +43,10 @@ class Fault:
     def __init__(self, frame: str | None = None) -> None:
         self.frame = frame
 
-    def begin(self, nodes: Nodes) -> None:
+    def begin(self, nodes: Stage) -> None:
         """The fault is switched on."""
 
-    def end(self, nodes: Nodes) -> None:
+    def end(self, nodes: Stage) -> None:
         """The fault is switched off."""
 
     def concerns(self, transform: Any, topic: str) -> bool:
@@ -175,7 +165,7 @@ class TwoPublishers(Fault):
         self._parent, self._x, self._y = parent, x, y
         self._node: Node | None = None
 
-    def begin(self, nodes: Nodes) -> None:
+    def begin(self, nodes: Stage) -> None:
         """Start the second node."""
         node = self._node = nodes.start(lambda: Node("second"), name="second_broadcaster")
         broadcaster = TransformBroadcaster(node)
@@ -191,7 +181,7 @@ class TwoPublishers(Fault):
 
         node.create_timer(0.1, send)
 
-    def end(self, nodes: Nodes) -> None:
+    def end(self, nodes: Stage) -> None:
         """End the second node."""
         if self._node is not None:
             nodes.remove(self._node)
