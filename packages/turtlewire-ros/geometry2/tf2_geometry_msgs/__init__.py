@@ -10,7 +10,6 @@ loaded when they are first used.
 ============================  ==========================================
 module                        contents
 ============================  ==========================================
-`registration`                registers the transforms of all types
 `vectors`, `poses`, `twists`  the transforms, by kind of message
 `motion`                      a transform applied to plain floats
 `numpy_bridge`                ``X_from_Y``: messages as arrays, and back
@@ -20,8 +19,11 @@ module                        contents
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
+import tf2_ros
+from geometry_msgs import msg as geometry
+from nav_msgs.msg import Odometry, Path
 from tf2_geometry_msgs.poses import (
     do_transform_odometry,
     do_transform_path,
@@ -34,7 +36,6 @@ from tf2_geometry_msgs.poses import (
     do_transform_transform_stamped,
     transform_covariance,
 )
-from tf2_geometry_msgs.registration import from_msg_msg, register, to_msg_msg
 from tf2_geometry_msgs.twists import (
     do_transform_twist,
     do_transform_twist_stamped,
@@ -133,7 +134,39 @@ __all__ = [
     "vector3_from_array",
 ]
 
-register()
+_M = TypeVar("_M")
+
+
+def to_msg_msg(msg: _M) -> _M:
+    """Return a message as a message: itself."""
+    return msg
+
+
+def from_msg_msg(msg: _M) -> _M:
+    """Return a message of a message: itself."""
+    return msg
+
+
+for _message_type, _do_transform in (
+    (geometry.PointStamped, do_transform_point),
+    (geometry.Vector3Stamped, do_transform_vector3),
+    (geometry.QuaternionStamped, do_transform_quaternion_stamped),
+    (geometry.PolygonStamped, do_transform_polygon_stamped),
+    (geometry.PolygonInstanceStamped, do_transform_polygon_instance_stamped),
+    (geometry.PoseStamped, do_transform_pose_stamped),
+    (geometry.PoseArray, do_transform_pose_array),
+    (geometry.PoseWithCovarianceStamped, do_transform_pose_with_covariance_stamped),
+    (geometry.TransformStamped, do_transform_transform_stamped),
+    (Path, do_transform_path),
+    (Odometry, do_transform_odometry),
+    (geometry.TwistStamped, do_transform_twist_stamped),
+    (geometry.TwistWithCovarianceStamped, do_transform_twist_with_covariance_stamped),
+    (geometry.VelocityStamped, do_transform_velocity_stamped),
+    (geometry.WrenchStamped, do_transform_wrench_stamped),
+):
+    tf2_ros.TransformRegistration().add(_message_type, _do_transform)
+    tf2_ros.ConvertRegistration().add_to_msg(_message_type, to_msg_msg)
+    tf2_ros.ConvertRegistration().add_from_msg(_message_type, from_msg_msg)
 
 
 #: Messages that ROS 2's package has because it imports them; programs take them from here.

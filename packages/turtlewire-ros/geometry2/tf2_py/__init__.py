@@ -1,12 +1,11 @@
 """tf2_py as in ROS 2: the BufferCore, and the exceptions of tf2.
 
-=============  ===============================
+=============  ==============================================================
 module         contents
-=============  ===============================
+=============  ==============================================================
 `buffer_core`  `BufferCore`
-`messages`     results as ``TransformStamped``
-`times`        times of messages and of rclpy
-=============  ===============================
+`messages`     times of messages and of rclpy; results as ``TransformStamped``
+=============  ==============================================================
 """
 
 from tf2_py.buffer_core import BufferCore

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import turtlewire
-from tf2_py.messages import message_lookup
-from tf2_py.times import to_moment, to_nanoseconds
+from tf2_py.messages import message_lookup, to_moment, to_nanoseconds
 from turtlewire.distro import LYRICAL, current_distro, since
 from turtlewire.tf.links import links
 from turtlewire.wording import Wording
@@ -208,9 +207,7 @@ class BufferCore:
             target_frame, target_time, source_frame, source_time, fixed_frame
         )
         parents = {link.child_frame: link.parent_frame for link in links(self.engine)}
-        return (
-            _way(parents, source_frame, fixed_frame) + _way(parents, fixed_frame, target_frame)[1:]
-        )
+        return way(parents, source_frame, fixed_frame) + way(parents, fixed_frame, target_frame)[1:]
 
     def all_frames_as_yaml(self, *_ignored: Any) -> str:
         """Frames, parents, senders, rates and ages as YAML. Arguments are ignored, as in ROS 2."""
@@ -237,7 +234,7 @@ class BufferCore:
         return self.engine.frames()
 
 
-def _way(parents: dict[str, str], start: str, end: str) -> list[str]:
+def way(parents: dict[str, str], start: str, end: str) -> list[str]:
     """Go up from one frame to the nearest common ancestor and down to the other."""
     up, down = _line(parents, start), _line(parents, end)
     meeting = next(frame for frame in up if frame in down)

@@ -1,43 +1,49 @@
-"""Lookups that return ``TransformStamped`` messages.
+"""ROS's messages: times and transforms of them, and lookups that return ``TransformStamped``.
 
 The compiled core builds the messages itself; for the plain-Python core this module does it.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
-from tf2_py.times import to_moment, to_nanoseconds
+from turtlewire.call_errors import ros_time_error
 from turtlewire.tf.buffer import CORE
 
 if TYPE_CHECKING:
     import turtlewire
     from geometry_msgs.msg import TransformStamped
+    from turtlewire._native import MessageLookup
 
 
-class MessageLookup(Protocol):
-    """Lookups of a buffer with ROS times in and messages out."""
+def to_moment(time: Any) -> int | None:
+    """Return the nanoseconds of a time of a question; time 0, the latest, is the engine's None."""
+    return to_nanoseconds(time) or None
 
-    def lookup(
-        self, target_frame: str, source_frame: str, time: Any, timeout: Any = None
-    ) -> TransformStamped:
-        """As ``turtlewire.Buffer.lookup_transform``; without a timeout it does not wait."""
-        ...
 
-    def lookup_full(
-        self,
-        target_frame: str,
-        target_time: Any,
-        source_frame: str,
-        source_time: Any,
-        fixed_frame: str,
-        timeout: Any = None,
-    ) -> TransformStamped:
-        """As `lookup`, by way of a frame that does not move."""
-        ...
+def to_nanoseconds(value: Any, what: str = "time") -> int:
+    """Return the nanoseconds of a time or duration.
+
+    Args:
+        value: A builtin_interfaces message, or an rclpy ``Time`` or ``Duration``.
+        what: ``time`` or ``duration``, for the error.
+
+    Raises:
+        TypeError: ``value`` is neither. Numbers are refused, because their unit is unknown.
+    """
+    if hasattr(value, "sec") and hasattr(value, "nanosec"):
+        return int(value.sec) * 1_000_000_000 + int(value.nanosec)
+    if hasattr(value, "nanoseconds"):
+        return int(value.nanoseconds)
+    raise ros_time_error(what, value)
 
 
 class _PlainMessageLookup:
+    """Lookups of a buffer with ROS times in and messages out; without a timeout they do not wait.
+
+    It is the plain-Python twin of ``turtlewire._native.MessageLookup``.
+    """
+
     def __init__(self, buffer: turtlewire.Buffer) -> None:
         self._buffer = buffer
 
@@ -90,7 +96,7 @@ def to_message(transform: turtlewire.Transform) -> TransformStamped:
     return message
 
 
-def message_lookup(buffer: turtlewire.Buffer) -> MessageLookup:
+def message_lookup(buffer: turtlewire.Buffer) -> MessageLookup | _PlainMessageLookup:
     """Return the message lookup that fits the core in use."""
     if CORE == "python":
         return _PlainMessageLookup(buffer)

@@ -5,18 +5,17 @@ module                            contents
 ================================  ===========================================================
 `buffer`                          `Buffer`: a node's buffer
 `buffer_interface`                `BufferInterface`: what all buffers share; registered types
-`buffer_client`, `buffer_server`  lookups in a buffer of another process
+`buffer_client`, `buffer_server`  lookups in a buffer of another process; the executable
+                                  ``buffer_server``
 `transform_listener`              `TransformListener`: fills a buffer from the wire
 `static_transform_listener`       `StaticTransformListener`: of static transforms only
 `transform_broadcaster`           `TransformBroadcaster`
 `static_transform_broadcaster`    `StaticTransformBroadcaster`: also for later subscriptions
 `message_filter`                  holds messages back until they can be transformed
-`transform_futures`, `deadlines`  futures of transforms; their timeouts
-`spinning`                        an executor in its own thread
+`transform_futures`               futures of transforms, and their timeouts
 `notebook`                        a ``TransformStamped`` in Jupyter
 `tf2_echo`, `tf2_monitor`         the tools of these names
 `static_transform_publisher`      the executable of this name
-`buffer_server_node`              the executable ``buffer_server``
 `command_line`                    command lines of the tools
 ================================  ===========================================================
 """

@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from rclpy.clock import Clock, JumpThreshold
 from rclpy.duration import Duration
 from tf2_py import BufferCore
-from tf2_py.times import to_moment, to_nanoseconds
-from turtlewire.errors import ExtrapolationException, InvalidArgumentException
+from tf2_py.messages import to_moment, to_nanoseconds
 
 from .buffer_interface import NO_TIMEOUT, BufferInterface
-from .transform_futures import TransformFutures
+from .transform_futures import Leg, PendingLookup, TransformFutures
 
 if TYPE_CHECKING:
-    import turtlewire
     from geometry_msgs.msg import TransformStamped
     from rclpy.clock import BaseClock, TimeJump
     from rclpy.experimental import AsyncNode
     from rclpy.node import Node
     from rclpy.task import Future
-    from turtlewire.errors import TransformException
 
 #: The jumps of a clock after which the stored samples belong to another time.
 JUMP_BACK = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), on_clock_change=True)
@@ -217,9 +213,9 @@ class Buffer(BufferCore, BufferInterface):
         Its done-callbacks run on the thread that receives the data, and should be short. Arguments
         and errors are the same as for :meth:`lookup_transform_async`.
         """
-        leg = _Leg(target_frame, source_frame, to_nanoseconds(time))
+        leg = Leg(target_frame, source_frame, to_nanoseconds(time))
         answer = functools.partial(self.lookup_transform_core, target_frame, source_frame, time)
-        return self._futures.add(_Question(self.engine, (leg,), answer), _limit(timeout))
+        return self._futures.add(PendingLookup(self.engine, (leg,), answer), _limit(timeout))
 
     def wait_for_transform_full_async(
         self,
@@ -233,8 +229,8 @@ class Buffer(BufferCore, BufferInterface):
     ) -> Future:
         """:meth:`wait_for_transform_async` for :meth:`lookup_transform_full`."""
         legs = (
-            _Leg(target_frame, fixed_frame, to_nanoseconds(target_time)),
-            _Leg(fixed_frame, source_frame, to_nanoseconds(source_time)),
+            Leg(target_frame, fixed_frame, to_nanoseconds(target_time)),
+            Leg(fixed_frame, source_frame, to_nanoseconds(source_time)),
         )
         answer = functools.partial(
             self.lookup_transform_full_core,
@@ -244,43 +240,7 @@ class Buffer(BufferCore, BufferInterface):
             source_time,
             fixed_frame,
         )
-        return self._futures.add(_Question(self.engine, legs, answer), _limit(timeout))
-
-
-class _Leg(NamedTuple):
-    """A lookup between two frames at one time."""
-
-    target: str
-    source: str
-    stamp_ns: int
-
-
-class _Question(NamedTuple):
-    """A lookup that a future waits for; see :class:`~.transform_futures.PendingLookup`."""
-
-    engine: turtlewire.Buffer
-    legs: tuple[_Leg, ...]
-    answer: Callable[[], TransformStamped]
-
-    def never(self, error: TransformException) -> bool:
-        """Return True if no later data can bring the answer."""
-        if isinstance(error, InvalidArgumentException):
-            return True
-        # Otherwise only a time that has left a cache cannot come back; the latest time advances
-        # with the data.
-        keep_ns = self.engine.cache_time_ns
-        if not isinstance(error, ExtrapolationException):
-            return False
-        if keep_ns is None or error.reason == "future":
-            return False
-        latest = any(
-            leg.stamp_ns == 0
-            for leg in self.legs
-            if (leg.target, leg.source) == (error.target_frame, error.source_frame)
-        )
-        if latest or error.requested_ns is None or error.newest_ns is None:
-            return False
-        return error.requested_ns < error.newest_ns - keep_ns
+        return self._futures.add(PendingLookup(self.engine, legs, answer), _limit(timeout))
 
 
 async def _outcome(future: Future) -> TransformStamped:

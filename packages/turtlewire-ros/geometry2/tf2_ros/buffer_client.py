@@ -13,13 +13,13 @@ from rclpy.node import Node
 from rclpy.time import Time
 from tf2_msgs.action import LookupTransform
 from tf2_msgs.msg import TF2Error
-from tf2_py.times import to_nanoseconds
+from tf2_py.messages import to_nanoseconds
 from turtlewire.distro import LYRICAL, since
 from turtlewire.errors import TimeoutException, TransformException
 
 from .buffer_interface import NO_TIMEOUT, BufferInterface
 from .buffer_server import exception_for
-from .spinning import spin_in_thread
+from .transform_listener import spin_in_thread
 
 if TYPE_CHECKING:
     from geometry_msgs.msg import TransformStamped

@@ -5,10 +5,16 @@ Those processes then need not receive all transforms themselves.
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
+import rclpy
 from rclpy.action import ActionServer, CancelResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.duration import Duration
+from rclpy.exceptions import InvalidParameterTypeException
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
 from tf2_msgs.action import LookupTransform
 from tf2_msgs.msg import TF2Error
 from turtlewire.errors import (
@@ -20,13 +26,14 @@ from turtlewire.errors import (
     TransformException,
 )
 
+from .buffer import Buffer
+from .transform_listener import TransformListener
+
 if TYPE_CHECKING:
     from rclpy.action.server import ServerGoalHandle
-    from rclpy.node import Node
     from rclpy.task import Future
 
-    from .buffer import Buffer
-
+_MOST_S = 1e9
 # The base class comes last, because the first match counts.
 _NUMBERS: dict[type[TransformException], int] = {
     LookupException: TF2Error.LOOKUP_ERROR,
@@ -122,3 +129,31 @@ class BufferServer:
             return CancelResponse.REJECT
         future.cancel()
         return CancelResponse.ACCEPT
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run `ros2 run tf2_ros buffer_server` until stopped; return the exit status.
+
+    The parameter ``buffer_size`` says how many seconds of samples are kept; its default is 120.
+    """
+    rclpy.init(args=args)
+    try:
+        node = Node("tf_buffer")
+        size_s = node.declare_parameter("buffer_size", 120.0).value
+        if not 0.0 <= size_s <= _MOST_S:
+            text = f"buffer_size is {size_s}; it can be 0 to {_MOST_S:.0f} seconds"
+            print(text, file=sys.stderr)  # noqa: T201
+            return 1
+        buffer = Buffer(Duration(seconds=size_s), node)
+        TransformListener(buffer, node)
+        server = BufferServer(buffer, node, "tf2_buffer_server")
+        rclpy.spin(node)
+        server.destroy()
+    except InvalidParameterTypeException as error:
+        print("\n".join(filter(None, (str(error), error.hint))), file=sys.stderr)  # noqa: T201
+        return 1
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        rclpy.try_shutdown()
+    return 0

@@ -9,7 +9,7 @@ from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 from message_filters import SimpleFilter
-from tf2_py.times import to_moment
+from tf2_py.messages import to_moment
 from turtlewire.errors import TransformException
 
 from .buffer import JUMP_BACK

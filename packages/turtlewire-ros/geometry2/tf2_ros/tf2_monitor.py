@@ -12,22 +12,22 @@ import rclpy
 from rclpy.node import Node
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
+from tf2_py.buffer_core import way
 from turtlewire import msg
 from turtlewire.errors import TransformException
 from turtlewire.terminal.parser import seconds
 from turtlewire.terminal.printable import printable_lines
-from turtlewire.tf.frame_tree import read_frame_tree
+from turtlewire.tf.links import links
 from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NAME
 from turtlewire.wire.base import TypeId
 
 from .buffer import Buffer
 from .command_line import ToolParser, count, frame_id
-from .spinning import spin_in_thread
+from .transform_listener import spin_in_thread
 
 if TYPE_CHECKING:
     import argparse
 
-    from turtlewire.tf.frame_tree import FrameLink
     from turtlewire.wire.base import MessageInfo
 
 #: ROS 2's name for a publisher whose node is unknown.
@@ -256,17 +256,9 @@ def chain(buffer: Buffer, source: str, target: str) -> list[str]:
         TransformException: The frames are not connected.
     """
     buffer.lookup_transform(target, source, Time())
-    links = read_frame_tree(buffer.engine).links
-    ups = [_to_root(frame, links) for frame in (source, target)]
-    common = next(frame for frame in ups[0] if frame in ups[1])
-    return ups[0][: ups[0].index(common) + 1] + ups[1][: ups[1].index(common)][::-1]
-
-
-def _to_root(frame: str, links: dict[str, FrameLink]) -> list[str]:
-    found = [frame]
-    while found[-1] in links and links[found[-1]].parent not in found:
-        found.append(links[found[-1]].parent)
-    return found
+    return way(
+        {link.child_frame: link.parent_frame for link in links(buffer.engine)}, source, target
+    )
 
 
 def _report(

@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from threading import current_thread
+from contextlib import suppress
+from threading import Thread, current_thread
 from typing import TYPE_CHECKING, Any
 
 from rclpy._execution.background_events import BackgroundEvents
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from turtlewire.tf import listener as engine
 
 from .buffer import JUMP_BACK, Buffer
-from .spinning import spin_in_thread
 
 if TYPE_CHECKING:
-    from threading import Thread
-
     from rclpy.clock import JumpHandle
-    from rclpy.executors import SingleThreadedExecutor
     from rclpy.experimental import AsyncNode
     from rclpy.node import Node
     from tf2_msgs.msg import TFMessage
@@ -166,3 +164,21 @@ def _profile(qos: QoSProfile | int | None, default: QoSProfile) -> QoSProfile:
     if qos is None:
         return default
     return qos if isinstance(qos, QoSProfile) else QoSProfile(depth=qos)
+
+
+def spin_in_thread(node: Node | AsyncNode, name: str) -> tuple[SingleThreadedExecutor, Thread]:
+    """Spin a node in a daemon thread, until its executor or its context is shut down.
+
+    Raises:
+        TypeError: The node is asynchronous.
+    """
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)  # type: ignore[arg-type]  # raises if it is asynchronous
+    thread = Thread(target=_spin, args=(executor,), name=name, daemon=True)
+    thread.start()
+    return executor, thread
+
+
+def _spin(executor: SingleThreadedExecutor) -> None:
+    with suppress(ExternalShutdownException):
+        executor.spin()

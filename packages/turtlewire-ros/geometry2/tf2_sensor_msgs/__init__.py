@@ -2,18 +2,21 @@
 
 Importing it makes ``tf2_ros.Buffer.transform`` take ``sensor_msgs.msg.PointCloud2``.
 
-=================  ===========================
+=================  ==========================
 module             contents
-=================  ===========================
-`clouds`           transforms of point clouds
-`tf2_sensor_msgs`  ROS 2's module of this name
-=================  ===========================
+=================  ==========================
+`tf2_sensor_msgs`  transforms of point clouds
+=================  ==========================
 """
 
 import tf2_ros
 from sensor_msgs.msg import PointCloud2
-from tf2_geometry_msgs import from_msg_msg, to_msg_msg
-from tf2_sensor_msgs.clouds import do_transform_cloud, transform_points
+from tf2_sensor_msgs.tf2_sensor_msgs import (
+    do_transform_cloud,
+    from_msg_msg,
+    to_msg_msg,
+    transform_points,
+)
 
 __all__ = ["do_transform_cloud", "from_msg_msg", "to_msg_msg", "transform_points"]
 

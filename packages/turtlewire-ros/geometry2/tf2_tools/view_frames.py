@@ -17,11 +17,10 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 from tf2_ros import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, Buffer, TransformListener
-from tf2_tools.dot import dot_from_tree, generate_dot
 from tf2_tools.pdf import pdf_from_drawing
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.drawing import svg_from_drawing
-from turtlewire.tf.frame_tree import FrameTree, read_frame_tree
+from turtlewire.tf.frame_tree import FrameLink, FrameTree, read_frame_tree
 from turtlewire.tf.tree_drawing import draw_tree
 
 __all__ = [
@@ -30,6 +29,7 @@ __all__ = [
     "INTERRUPTED",
     "WAIT_TIME_S",
     "ViewFrames",
+    "dot_from_tree",
     "generate_dot",
     "main",
 ]
@@ -98,6 +98,63 @@ class ViewFrames(Node):
             with open(output + ending, "wb") as file:
                 file.write(content)
             self.get_logger().info(f"Wrote {os.path.abspath(output + ending)}")
+
+
+def dot_from_tree(tree: FrameTree, recorded_time: str) -> str:
+    """Return Graphviz text with a link for each frame, and a legend with the recording's time."""
+    if not tree.links:
+        return 'digraph G { "No tf data received" }'
+    legend = [
+        "edge [style=invis];",
+        ' subgraph cluster_legend { style=bold; color=black; label ="view_frames Result";',
+        f'"Recorded at time: {recorded_time}"[ shape=plaintext ] ;',
+        f"}}->{_quoted(tree.roots[0])};",
+        "}",
+    ]
+    return "\n".join(["digraph G {", *map(_link, tree.links.values()), *legend])
+
+
+def generate_dot(data: dict[str, Any], recorded_time: float | str) -> str:
+    """Return Graphviz text of an answer of the service ``tf2_frames``.
+
+    Args:
+        data: Its YAML, loaded: of each frame, by its name, the parent and the rates.
+        recorded_time: When it was asked, for the legend.
+    """
+    links = [
+        FrameLink(
+            child=str(child),
+            parent=frame["parent"],
+            broadcaster=frame["broadcaster"],
+            is_static=False,
+            rate_hz=frame["rate"],
+            newest=frame["most_recent_transform"],
+            oldest=frame["oldest_transform"],
+            length=frame["buffer_length"],
+        )
+        for child, frame in data.items()
+    ]
+    return dot_from_tree(FrameTree(links), str(recorded_time))
+
+
+def _link(link: FrameLink) -> str:
+    fields = (
+        f"Broadcaster: {_escaped(link.broadcaster)}",
+        f"Average rate: {link.rate_hz:.3f}",
+        f"Buffer length: {link.length:.3f}",
+        f"Most recent transform: {link.newest:.6f}",
+        f"Oldest transform: {link.oldest:.6f}",
+    )
+    label = "".join(f"{field}\\n" for field in fields)
+    return f'{_quoted(link.parent)} -> {_quoted(link.child)}[label=" {label}"];'
+
+
+def _quoted(name: str) -> str:
+    return f'"{_escaped(name)}"'
+
+
+def _escaped(text: str) -> str:
+    return text.replace("\\", "\\\\").replace('"', '\\"')
 
 
 def _seconds(text: str) -> float:

@@ -1,5 +1,7 @@
 """The types as tf2_ros.Buffer.transform takes them."""
 
+import copy
+
 import pytest
 from tests.programs import run_python
 
@@ -27,6 +29,13 @@ STAMPED = [
     Path,
     Odometry,
 ]
+CONTENTS = {
+    geometry.PoseArray: {"poses": [geometry.Pose()]},
+    geometry.PolygonStamped: {"polygon": geometry.Polygon(points=[geometry.Point32()])},
+    geometry.TransformStamped: {"child_frame_id": "gripper"},
+    geometry.VelocityStamped: {"body_frame_id": "body", "reference_frame_id": "world"},
+    Path: {"poses": [geometry.PoseStamped()]},
+}
 
 
 @pytest.fixture
@@ -47,6 +56,20 @@ def test_a_buffer_transforms_it_at_the_time_of_its_stamp(buffer, kind):
     assert (moved.header.frame_id, moved.header.stamp.sec) == ("target", 15)
     full = buffer.transform_full(message, "target", Time(seconds=16), "target")
     assert (full.header.frame_id, full.header.stamp.sec) == ("target", 16)
+
+
+@pytest.mark.parametrize("kind", STAMPED, ids=lambda kind: kind.__name__)
+def test_arguments_stay_and_headers_are_copies(some_world, kind):
+    message = kind(**CONTENTS.get(kind, {}))
+    if hasattr(message, "pose") and hasattr(message.pose, "covariance"):
+        message.pose.covariance[:] = [float(number) for number in range(36)]
+    message.header.frame_id, message.header.stamp.sec = "source", 99
+    before = copy.deepcopy((message, some_world.message))
+    result = tf2_ros.TransformRegistration().get(kind)(message, some_world.message)
+    assert type(result) is kind
+    assert result.header == some_world.message.header
+    result.header.frame_id, result.header.stamp.sec = "changed", 1
+    assert (message, some_world.message) == before
 
 
 def test_stamp_0_gets_the_time_of_the_answer(buffer):

@@ -9,13 +9,10 @@ from scipy.spatial.transform import Rotation
 import tf2_geometry_msgs as tf2
 from geometry_msgs.msg import (
     Twist,
-    TwistStamped,
     TwistWithCovariance,
-    TwistWithCovarianceStamped,
     Vector3,
     VelocityStamped,
     Wrench,
-    WrenchStamped,
 )
 
 SEED = 11
@@ -141,28 +138,6 @@ def test_a_twists_covariance_is_that_of_many_twists(some_world):
     assert (
         np.abs(sampled - without_distance) > allowed
     ).any()  # the tolerance would notice that the distance was forgotten
-
-
-@pytest.mark.parametrize(
-    ("function", "message"),
-    [
-        (tf2.do_transform_twist_stamped, TwistStamped()),
-        (tf2.do_transform_twist_with_covariance_stamped, TwistWithCovarianceStamped()),
-        (
-            tf2.do_transform_velocity_stamped,
-            VelocityStamped(body_frame_id="body", reference_frame_id="world"),
-        ),
-        (tf2.do_transform_wrench_stamped, WrenchStamped()),
-    ],
-)
-def test_arguments_stay_and_headers_are_copies(some_world, function, message):
-    message.header.frame_id, message.header.stamp.sec = "source", 99
-    before = copy.deepcopy((message, some_world.message))
-    result = function(message, some_world.message)
-    assert type(result) is type(message)
-    assert result.header == some_world.message.header
-    result.header.frame_id = "changed"
-    assert (message, some_world.message) == before
 
 
 def test_a_velocity_moves_like_a_twist_and_stays_whose_it_is(quarter_turn):

@@ -28,13 +28,6 @@ def xyz(message):
     return message.x, message.y, message.z
 
 
-def test_a_point_by_hand(quarter_turn):
-    point = PointStamped(point=Point(x=1.0, y=2.0, z=3.0))
-    assert xyz(tf2.do_transform_point(point, quarter_turn.message).point) == pytest.approx(
-        (8.0, 21.0, 33.0)
-    )
-
-
 def test_a_vector_is_turned_and_not_moved(quarter_turn):
     vector = Vector3Stamped(vector=Vector3(x=1.0, y=2.0, z=3.0))
     assert xyz(tf2.do_transform_vector3(vector, quarter_turn.message).vector) == pytest.approx(
@@ -96,25 +89,6 @@ def test_polygons_go_corner_by_corner(quarter_turn):
     assert moved.polygon.id == 7
     assert moved.polygon.polygon == stamped.polygon
     assert moved.header == quarter_turn.message.header
-
-
-@pytest.mark.parametrize(
-    ("function", "message"),
-    [
-        (tf2.do_transform_point, PointStamped()),
-        (tf2.do_transform_vector3, Vector3Stamped()),
-        (tf2.do_transform_quaternion_stamped, QuaternionStamped()),
-        (tf2.do_transform_polygon_stamped, PolygonStamped()),
-        (tf2.do_transform_polygon_instance_stamped, PolygonInstanceStamped()),
-    ],
-)
-def test_the_header_is_the_transforms_but_a_copy_of_it(quarter_turn, function, message):
-    message.header.frame_id, message.header.stamp.sec = "source", 99
-    before = copy.deepcopy((message, quarter_turn.message))
-    result = function(message, quarter_turn.message)
-    assert result.header == quarter_turn.message.header
-    result.header.frame_id, result.header.stamp.sec = "changed", 1
-    assert (message, quarter_turn.message) == before
 
 
 def test_stamped_data_with_a_bare_transform_says_what_is_missing():

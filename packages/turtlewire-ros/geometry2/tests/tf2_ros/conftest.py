@@ -4,6 +4,7 @@ import pytest
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 
@@ -13,11 +14,14 @@ def _local_middleware(monkeypatch):
 
 
 @pytest.fixture
+def real_middleware(monkeypatch, _local_middleware):
+    monkeypatch.delenv("RMW_IMPLEMENTATION")
+
+
+@pytest.fixture
 def context():
-    context = Context()
-    context.init(args=[])
-    yield context
-    context.try_shutdown()
+    with Context() as context:
+        yield context
 
 
 @pytest.fixture
@@ -36,6 +40,19 @@ def make_node(context):
 @pytest.fixture
 def node(make_node):
     return make_node()
+
+
+@pytest.fixture
+def spin_until(context):
+    """Spins a node in a single-threaded executor until a condition holds."""
+
+    def spin_until(node, is_done):
+        with SingleThreadedExecutor(context=context) as executor:
+            executor.add_node(node)
+            while not is_done():
+                executor.spin_once(timeout_sec=60)
+
+    return spin_until
 
 
 @pytest.fixture

@@ -11,7 +11,6 @@ from tf2_ros import (
     Buffer,
     StaticTransformBroadcaster,
     TransformBroadcaster,
-    TransformException,
     TransformListener,
 )
 
@@ -41,20 +40,7 @@ def test_a_lookup_is_awaited(monkeypatch, stamped, middleware):
         assert run(main(context)) == 2.5
 
 
-async def test_a_lookup_is_cancelled(context):
-    async with AsyncNode("tested", context=context) as node:
-        buffer = Buffer()
-        TransformListener(buffer, node)
-        with pytest.raises(asyncio.TimeoutError):
-            await asyncio.wait_for(buffer.lookup_transform_async("a", "b", Time()), 0.01)
-        from rclpy.duration import Duration
-
-        limit = Duration(nanoseconds=1)
-        with pytest.raises(TransformException):
-            await buffer.lookup_transform_async("a", "b", Time(), timeout=limit)
-
-
-async def test_the_listener_ends_with_its_node(context, make_node, stamped):
+async def test_the_listener_ends_with_its_node(context, make_node):
     node = AsyncNode("tested", context=context)
     buffer = Buffer()
     async with node:

@@ -149,35 +149,24 @@ def join_late(open_node, stamped, enough_joins, *, leaving, sending, child):
 
 
 def test_no_peer_is_lost_over_a_thousand_joins(make_node, stamped):
-    @contextlib.contextmanager
-    def open_node(name):
-        node = make_node(name)
-        yield node
-        node.destroy_node()
-
     def child(_, chance):
         return f"frame{chance.randrange(12)}"
 
-    join_late(open_node, stamped, 1000, leaving=0.1, sending=0.8, child=child)
+    join_late(make_node, stamped, 1000, leaving=0.1, sending=0.8, child=child)
 
 
 @contextlib.contextmanager
 def open_participant(name):
     """A node on its own participant, as in another process."""
-    context = Context()
-    context.init(args=[])
-    node = Node(name, context=context, enable_rosout=False, start_parameter_services=False)
-    try:
+    quiet = {"enable_rosout": False, "start_parameter_services": False}
+    with Context() as context, Node(name, context=context, **quiet) as node:
         yield node
-    finally:
-        node.destroy_node()
-        context.try_shutdown()
 
 
 @pytest.mark.parametrize("enough_joins", [100, pytest.param(1000, marks=pytest.mark.slow)])
-def test_no_static_transform_is_lost_over_dds(enough_joins, monkeypatch, stamped):
+@pytest.mark.usefixtures("real_middleware")
+def test_no_static_transform_is_lost_over_dds(enough_joins, stamped):
     """The same with participants of Cyclone DDS, each with its own frames."""
-    monkeypatch.delenv("RMW_IMPLEMENTATION")
 
     def child(name, chance):
         return f"{name}_frame{chance.randrange(6)}"

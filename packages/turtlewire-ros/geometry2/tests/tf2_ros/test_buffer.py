@@ -28,6 +28,7 @@ from rclpy.node import Node
 from rclpy.time import Time
 from std_msgs.msg import Header
 from tf2_ros import Buffer, MessageFilter, TransformBroadcaster, TransformListener
+from tf2_ros.transform_futures import Deadlines
 
 LONG = Duration(seconds=60)
 
@@ -187,7 +188,7 @@ def test_a_wait_ends_with_the_error_of_the_lookup(buffer):
     assert buffer.can_transform("world", "robot", Time(), Duration(seconds=0.01)) == 0
 
 
-def test_a_callback_of_a_single_threaded_executor_may_wait(context, make_node, stamped):
+def test_a_callback_of_a_single_threaded_executor_may_wait(spin_until, make_node, stamped):
     node, talker = make_node("waits"), make_node("talks")
     buffer, broadcaster = Buffer(node=node), TransformBroadcaster(talker)
     TransformListener(buffer, node)
@@ -198,10 +199,7 @@ def test_a_callback_of_a_single_threaded_executor_may_wait(context, make_node, s
         results.append(buffer.lookup_transform("world", "robot", Time(), LONG))
 
     node.create_timer(0.001, on_timer)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    while not results:
-        executor.spin_once(timeout_sec=60)
+    spin_until(node, lambda: results)
     assert results[0].transform.translation.x == 1.0
 
 
@@ -255,7 +253,7 @@ def test_awaiting_in_asyncio(buffer, stamped):
     assert first.transform.translation.x == 7.0
 
 
-def test_awaiting_in_a_callback_leaves_the_executor_free(context, make_node, stamped):
+def test_awaiting_in_a_callback_leaves_the_executor_free(spin_until, make_node, stamped):
     node = make_node()
     buffer = Buffer()
     TransformListener(buffer, node)
@@ -271,14 +269,11 @@ def test_awaiting_in_a_callback_leaves_the_executor_free(context, make_node, sta
     node.create_timer(
         0.05, lambda: broadcaster.sendTransform(stamped(x=8.0))
     )  # only runs if the wait above does not block
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    while not results:
-        executor.spin_once(timeout_sec=60)
+    spin_until(node, lambda: results)
     assert results[0].transform.translation.x == 8.0
 
 
-def test_a_node_offers_its_frames(context, make_node, stamped):
+def test_a_node_offers_its_frames(spin_until, make_node, stamped):
     from tf2_msgs.srv import FrameGraph
 
     node = make_node()
@@ -286,9 +281,7 @@ def test_a_node_offers_its_frames(context, make_node, stamped):
     buffer.set_transform_static(stamped("world", "wall"), "me")
     client = node.create_client(FrameGraph, "tf2_frames")
     future = client.call_async(FrameGraph.Request())
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    executor.spin_until_future_complete(future, timeout_sec=60)
+    spin_until(node, future.done)
     assert future.result().frame_yaml == buffer.all_frames_as_yaml()
     assert "wall:" in future.result().frame_yaml
 
@@ -442,8 +435,6 @@ def test_a_cancelled_task_waits_no_longer(buffer, stamped):
 
 
 def test_deadlines_come_in_order_and_leave_no_thread():
-    from tf2_ros.deadlines import Deadlines
-
     deadlines, calls, last = Deadlines(), [], threading.Event()
     deadlines.call_after(1.0, lambda: (calls.append("late"), last.set()))
     deadlines.call_after(0.05, lambda: calls.append("early"))
@@ -462,8 +453,6 @@ def test_deadlines_come_in_order_and_leave_no_thread():
 
 
 def test_a_deadline_that_raises_is_reported_and_later_ones_come(monkeypatch):
-    from tf2_ros.deadlines import Deadlines
-
     reported = []
     monkeypatch.setattr(threading, "excepthook", reported.append)
     deadlines, come = Deadlines(), threading.Event()

@@ -133,7 +133,7 @@ def test_many_wait_at_once(buffer, make_node, stamped):
         client.destroy()
 
 
-def test_a_callback_of_the_user_s_node_may_ask(context, buffer, make_node, stamped):
+def test_a_callback_of_the_user_s_node_may_ask(spin_until, buffer, make_node, stamped):
     node = make_node("user")
     client = BufferClient(node, "lookup")
     buffer.set_transform(stamped(x=4.0), "me")
@@ -141,10 +141,7 @@ def test_a_callback_of_the_user_s_node_may_ask(context, buffer, make_node, stamp
     node.create_timer(
         0.001, lambda: results.append(client.lookup_transform("world", "robot", Time(), LONG))
     )
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    while not results:
-        executor.spin_once(timeout_sec=60)
+    spin_until(node, lambda: results)
     assert results[0].transform.translation.x == 4.0
     client.destroy()
 
@@ -155,20 +152,18 @@ def test_without_a_server(client):
     assert client.can_transform("world", "robot", Time()) is False
 
 
-def test_a_goal_that_waits_can_be_cancelled(context, buffer, make_node):
+def test_a_goal_that_waits_can_be_cancelled(spin_until, buffer, make_node):
     node = make_node("cancels")
     action = ActionClient(node, LookupTransform, "lookup")
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
     assert action.wait_for_server(60)
     goal = LookupTransform.Goal(
         target_frame="world", source_frame="robot", timeout=Duration(seconds=60).to_msg()
     )
     sent = action.send_goal_async(goal)
-    executor.spin_until_future_complete(sent, 60)
+    spin_until(node, sent.done)
     result = sent.result().get_result_async()
-    executor.spin_until_future_complete(sent.result().cancel_goal_async(), 60)
-    executor.spin_until_future_complete(result, 60)
+    sent.result().cancel_goal_async()
+    spin_until(node, result.done)
     assert result.result().status == 5  # canceled
     assert buffer._futures._waiting == []
 

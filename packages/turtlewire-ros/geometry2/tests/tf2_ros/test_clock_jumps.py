@@ -12,11 +12,11 @@ import time
 import pytest
 from tests.places import ROS2
 
-from rclpy.context import Context
 from rclpy.duration import Duration
-from rclpy.node import Node
 from rclpy.time import Time
 from tf2_ros import BufferClient, TimeoutException, TransformException
+
+pytestmark = pytest.mark.usefixtures("real_middleware")
 
 SIMULATED = ("--ros-args", "-p", "use_sim_time:=true")
 
@@ -105,21 +105,11 @@ rclpy.spin(node)
 """
 
 
-@pytest.fixture(autouse=True)
-def _real_middleware(monkeypatch, _local_middleware):
-    monkeypatch.delenv("RMW_IMPLEMENTATION")
-
-
 @pytest.fixture
-def client():
-    context = Context()
-    context.init(args=[])
-    node = Node("asking", context=context)
+def client(node):
     client = BufferClient(node, "tf2_buffer_server", timeout_padding=Duration(seconds=2))
     yield client
     client.destroy()
-    node.destroy_node()
-    context.try_shutdown()
 
 
 @pytest.fixture

@@ -3,6 +3,7 @@
 A `text` block is what the block before it prints.
 """
 
+import doctest
 import re
 import sys
 import time
@@ -10,6 +11,10 @@ import time
 import pytest
 from tests.how_to import blocks, wait_until_printed
 from tests.places import HOW_TO, PATH
+
+import tf2_geometry_msgs  # noqa: F401 -- registers what the page names
+import tf2_ros
+import tf2_sensor_msgs  # noqa: F401
 
 PAGES = {
     "tf2_tools.md": 9,
@@ -20,8 +25,7 @@ PAGES = {
 
 
 @pytest.fixture(autouse=True)
-def _real_middleware(monkeypatch, _local_middleware):
-    monkeypatch.delenv("RMW_IMPLEMENTATION")
+def _shell(monkeypatch, real_middleware):
     monkeypatch.setenv("PATH", PATH)
     monkeypatch.setenv("PYTHONUTF8", "1")
 
@@ -78,13 +82,29 @@ def outcome(program):
         ("tf2_tools.md", "Print a transform", "ros2 run tf2_ros tf2_echo"),
         ("tf2_tools.md", "Measure rates and delays", "ros2 run tf2_ros tf2_monitor"),
         ("turtlewire_frames.md", "Watch the TF tree", "turtlewire frames"),
+        ("view_frames.md", "Draw the TF tree (view_frames)", "ros2 run tf2_tools view_frames"),
     ],
 )
 def test_the_page_names_every_option(page, part, command, run):
-    options = set(re.findall(r"--[a-z][a-z-]*", outcome(run(*command.split(), "--help")))) - {
+    options = set(re.findall(r"--[a-z][a-z_-]*", outcome(run(*command.split(), "--help")))) - {
         "--help"
     }
     assert options
     parts = re.split(r"^##? ", (HOW_TO / page).read_text(), flags=re.MULTILINE)
     (text,) = (each for each in parts if each.startswith(part))
     assert all(f"`{option}" in text for option in options), options
+
+
+@pytest.mark.parametrize(
+    ("page", "examples"), [("transform_messages.md", 25), ("view_frames.md", 4)]
+)
+def test_the_examples_do_what_the_page_says(page, examples):
+    failed, tried = doctest.testfile(str(HOW_TO / page), module_relative=False)
+    assert (failed, tried) == (0, examples)
+
+
+def test_the_page_names_every_type_that_a_buffer_takes():
+    page = (HOW_TO / "transform_messages.md").read_text()
+    for kind in tf2_ros.TransformRegistration._transforms:
+        if kind.__module__.startswith(("geometry_msgs.", "sensor_msgs.", "nav_msgs.")):
+            assert f"`{kind.__name__}`" in page or f"/{kind.__name__}`" in page

@@ -307,18 +307,15 @@ def test_it_ends_with_its_node(setup, node, stamped):
     assert s.passed == []
 
 
-def test_it_is_one_filter_of_a_chain(context, node, stamped):
+def test_it_is_one_filter_of_a_chain(spin_until, node, stamped):
     buffer, passed = Buffer(), []
     filters = [
         MessageFilter(Subscriber(node, PointStamped, topic), buffer, "world", 10, node)
         for topic in ("left", "right")
     ]
     TimeSynchronizer(filters, 10).registerCallback(lambda *messages: passed.append(len(messages)))
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
     for topic in ("left", "right"):
         node.create_publisher(PointStamped, topic, 1).publish(point(1))
     buffer.set_transform(stamped(stamp_s=1), "me")
-    while not passed:
-        executor.spin_once(timeout_sec=60)
+    spin_until(node, lambda: passed)
     assert passed == [2]

@@ -82,13 +82,6 @@ def test_static_listeners(make_node, stamped):
         each.lookup_transform("world", "robot", Time(), LONG)
 
 
-def test_it_goes_on_when_nobody_keeps_it(node, stamped):
-    buffer = Buffer()
-    TransformListener(buffer, node)
-    TransformBroadcaster(node).sendTransform(stamped())
-    buffer.lookup_transform("world", "robot", Time(), LONG)
-
-
 def test_it_ends_with_its_node_and_leaves_others_alone(make_node, stamped):
     first, second = make_node("first"), make_node("second")
     buffers = Buffer(), Buffer()
@@ -175,8 +168,6 @@ def test_no_message_is_decoded_on_the_way(make_node, stamped, monkeypatch):
 
 
 def test_a_listener_without_a_node_makes_one(stamped):
-    import rclpy
-
     with rclpy.init(args=[]):
         buffer = Buffer()
         listener = TransformListener(buffer, None)

@@ -182,13 +182,9 @@ class Run:
 
 
 def check(schedule, static):
-    context = Context()
-    context.init(args=[])
-    try:
+    with Context() as context:
         run = Run(context, *schedule, static)
         run.go()
-    finally:
-        context.try_shutdown()
     for i, wanted in enumerate(run.expected):
         event(f"{run.asked[i].kind}: {'answered' if wanted else 'cannot come'}")
         if wanted is None:
@@ -203,12 +199,7 @@ def test_waiting_never_hangs_and_answers_right(schedule, static):
     check(schedule, static)
 
 
-@pytest.fixture
-def _cyclone(monkeypatch, _local_middleware):
-    monkeypatch.delenv("RMW_IMPLEMENTATION")
-
-
-@pytest.mark.usefixtures("_cyclone")
+@pytest.mark.usefixtures("real_middleware")
 @settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(schedules(), st.sampled_from([None, "robot"]))
 def test_waiting_over_dds_never_hangs_and_answers_right(schedule, static):

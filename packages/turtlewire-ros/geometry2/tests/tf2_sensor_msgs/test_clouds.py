@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 import tf2_ros
 import tf2_sensor_msgs
-from geometry_msgs.msg import PointStamped, Transform, TransformStamped
+from geometry_msgs.msg import PointStamped, TransformStamped
 from sensor_msgs.msg import PointCloud2, PointField
 from sensor_msgs_py import point_cloud2
 from std_msgs.msg import Header
@@ -125,23 +125,6 @@ def test_every_layout(transform, layout, shape, row_gap, bigendian):
                 start = point * cloud.point_step + field.offset
                 coordinates[:, start : start + (4 if field.datatype == 7 else 8)] = True
     assert not (changed & ~coordinates.ravel()).any()
-
-
-def test_by_hand():
-    """A quarter to the left about z, then 10 ahead: x goes to y, y to -x."""
-    transform = Transform()
-    transform.translation.x, transform.rotation.z, transform.rotation.w = (
-        10.0,
-        np.sqrt(0.5),
-        np.sqrt(0.5),
-    )
-    cloud = make_cloud(
-        XYZI, {"x": [1.0, 0.0], "y": [0.0, 2.0], "z": [3.0, 0.0], "intensity": [7, 8]}
-    )
-    moved = do_transform_cloud(cloud, transform)
-    assert read(moved, "x", "y", "z", "intensity") == pytest.approx(
-        np.array([(10, 1, 3, 7), (8, 0, 0, 8)]), abs=1e-6
-    )
 
 
 def test_normals_are_turned_and_not_moved(transform):

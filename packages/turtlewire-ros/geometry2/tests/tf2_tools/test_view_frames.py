@@ -18,9 +18,8 @@ from geometry_msgs.msg import TransformStamped
 from rclpy.context import Context
 from rclpy.node import Node
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
-from tf2_tools.dot import dot_from_tree
 from tf2_tools.pdf import pdf_from_drawing
-from tf2_tools.view_frames import ViewFrames, generate_dot
+from tf2_tools.view_frames import ViewFrames, dot_from_tree, generate_dot
 from turtlewire import Buffer
 from turtlewire.tf.drawing import Drawing, FilledBox, Line, Text
 from turtlewire.tf.frame_tree import FrameLink, FrameTree, read_frame_tree
@@ -228,10 +227,6 @@ def test_the_dot_of_the_frames_of_the_service():
     data = yaml.safe_load(buffer.to_yaml())
     assert generate_dot(data, 100.0) == dot_from_tree(read_frame_tree(buffer), "100.0")
     assert generate_dot({}, 1.0) == 'digraph G { "No tf data received" }'
-
-
-def test_no_data():
-    assert dot_from_tree(FrameTree([]), "1.0") == 'digraph G { "No tf data received" }'
 
 
 @pytest.mark.skipif(shutil.which("dot") is None, reason="needs dot (Debian: apt install graphviz)")
