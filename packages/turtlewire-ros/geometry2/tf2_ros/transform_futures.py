@@ -104,7 +104,12 @@ class TransformFutures:
             if self._stop_listening is None:
                 self._stop_listening = self._buffer.on_change(self._look_again)
         # After listening has begun, so that no data is missed.
-        self._look_at(waiting, give_up=timeout_ns == 0)
+        try:
+            self._look_at(waiting, give_up=timeout_ns == 0)
+        except Exception:
+            # A wrong argument: nobody has the future, and looking at it would raise again.
+            self._claim(waiting)
+            raise
         if timeout_ns is not None and not waiting.future.done():
             waiting.cancel_deadline = _deadlines.call_after(
                 timeout_ns / 1e9, lambda: self._look_at(waiting, give_up=True)

@@ -230,6 +230,15 @@ def test_a_request_that_cannot_be_answered_fails_at_once(buffer):
         buffer.wait_for_transform_async("/world", "robot", Time()).result()
 
 
+def test_a_wrong_argument_leaves_other_futures_alone(buffer, stamped):
+    with pytest.raises(TypeError, match="target_frame must be str"):
+        buffer.wait_for_transform_async(None, "robot", Time())
+    future = buffer.wait_for_transform_async("world", "robot", Time())
+    buffer.set_transform(stamped(), "me")
+    assert future.done()
+    assert buffer._futures._stop_listening is None
+
+
 def test_awaiting_is_agnostic_of_loops(buffer, stamped):
     coroutine = buffer.lookup_transform_async("world", "robot", Time())
     coroutine.send(None)
