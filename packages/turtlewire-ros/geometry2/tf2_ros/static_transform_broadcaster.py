@@ -11,6 +11,7 @@ from weakref import WeakKeyDictionary, ref
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from rclpy.serialization import serialize_message
 from tf2_msgs.msg import TFMessage
 
 from .transform_broadcaster import as_list
@@ -90,9 +91,12 @@ class StaticTransformBroadcaster:
 
         They are copied; later changes of the messages have no effect until they are sent again.
         """
+        transforms = deepcopy(as_list(transform))
+        # A wrong field raises here, before it is kept and sent again with each later transform.
+        serialize_message(TFMessage(transforms=transforms))
         with _lock:
             replaced = []
-            for each in deepcopy(as_list(transform)):
+            for each in transforms:
                 child = each.child_frame_id
                 keeper = self._keepers.get(child, self._kept)
                 if keeper is not self._kept:

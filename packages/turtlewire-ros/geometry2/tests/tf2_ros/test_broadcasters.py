@@ -79,6 +79,17 @@ def test_the_caller_may_reuse_the_message(node, heard, stamped):
     assert x_of(buffer, "a") == 1.0
 
 
+def test_a_transform_with_a_wrong_field_is_not_kept(node, heard, stamped):
+    broadcaster = StaticTransformBroadcaster(node)
+    broadcaster.sendTransform(stamped(child="a", x=1.0))
+    with pytest.raises(ValueError, match="expected a float, got str"):
+        broadcaster.sendTransform([stamped(child="a", x=2.0), stamped(child="b", x="far")])
+    broadcaster.sendTransform(stamped(child="c", x=3.0))
+    buffer = heard()
+    assert [x_of(buffer, child) for child in "ac"] == [1.0, 3.0]
+    assert not buffer._frameExists("b")
+
+
 def test_the_last_sender_of_a_process_wins_for_late_joiners_too(node, make_node, heard, stamped):
     first, second = (
         StaticTransformBroadcaster(node),
