@@ -233,7 +233,7 @@ a rejected transform is reported only in the log
   tf2_py/test_buffer_core.py test_refusal_is_logged
 
 `do_transform_vector3` zeroes the caller's transform; result headers are the transform's own object
-  tf2_geometry_msgs/test_vectors.py test_the_header_is_the_transforms_but_a_copy_of_it
+  tf2_geometry_msgs/test_registration.py test_arguments_stay_and_headers_are_copies
 C++ rotates a wrench's force and torque, without the lever arm
   tf2_geometry_msgs/test_twists.py test_power_is_the_same_in_every_frame
 Python has no twists, paths, odometry, pose arrays, wrenches, velocities, quaternions

@@ -115,18 +115,8 @@ def test_json(broadcaster, tmp_path):
 
 
 def test_hearing_nothing_is_said_and_drawn(broadcaster, tmp_path):
-    run = view_frames(
-        "-t",
-        "0",
-        "--tf_topic",
-        "other",
-        "--tf_static_topic",
-        "/other_static",
-        "--ros-args",
-        "-r",
-        "__ns:=/x",
-        cwd=tmp_path,
-    )
+    topics = "--tf_topic other --tf_static_topic /other_static --ros-args -r __ns:=/x"
+    run = view_frames("-t", "0", *topics.split(), cwd=tmp_path)
     assert run.returncode == 0
     assert (
         "No tf data received on /x/other and /other_static. Is a broadcaster running"

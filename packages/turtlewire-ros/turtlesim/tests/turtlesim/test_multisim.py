@@ -36,13 +36,8 @@ def test_two_fields_one_mimics_the_other(run):
     launch = run(ROS2, "launch", "turtlesim", "multisim.launch.py", environment=quiet)
     launch.wait_for(r"Starting turtlesim with node name /turtlesim1/turtlesim")
     launch.wait_for(r"Starting turtlesim with node name /turtlesim2/turtlesim")
-    remaps = [
-        "-r",
-        "input/pose:=/turtlesim1/turtle1/pose",
-        "-r",
-        "output/cmd_vel:=/turtlesim2/turtle1/cmd_vel",
-    ]
-    run(ROS2, "run", "turtlesim", "mimic", "--ros-args", *remaps)
+    rules = "-r input/pose:=/turtlesim1/turtle1/pose -r output/cmd_vel:=/turtlesim2/turtle1/cmd_vel"
+    run(ROS2, "run", "turtlesim", "mimic", "--ros-args", *rules.split())
     context, moved = wire.open_context(), threading.Event()
     try:
         pose = msg.get_message("turtlesim/msg/Pose")

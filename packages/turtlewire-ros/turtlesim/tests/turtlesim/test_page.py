@@ -10,7 +10,6 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from turtlesim import page_commands
 from turtlesim.page_commands import (
     READER,
     Background,
@@ -66,17 +65,15 @@ def test_an_arrow_key_is_one_command_and_the_pen_draws(simulator, page):
     middle = simulator.turtle1.x
     page.keyboard.press("ArrowUp")
     wait_for_pixel(page, "turtles", middle + 2.0, middle, is_opaque)
-    assert simulator.commands == [page_commands.Drive("turtle1", 2.0, 0.0)]
+    assert simulator.commands == [Drive("turtle1", 2.0, 0.0)]
     assert is_pen(wait_for_pixel(page, "ground", middle + 1.0, middle, is_pen))
     for key in ("ArrowLeft", "ArrowRight", "Control+ArrowUp", "ArrowDown"):
         page.keyboard.press(key)
     wait_until(lambda: len(simulator.commands) == 4 and is_at_rest(simulator.turtle1))
     page.click("#clear")  # from here on nothing is drawn
     wait_for_pixel(page, "ground", middle + 1.0, middle, is_ground)
-    drives = [
-        page_commands.Drive("turtle1", *drive) for drive in ((0.0, 2.0), (0.0, -2.0), (-2.0, 0.0))
-    ]
-    assert simulator.commands[1:] == [*drives, page_commands.Clear()]
+    drives = [Drive("turtle1", *drive) for drive in ((0.0, 2.0), (0.0, -2.0), (-2.0, 0.0))]
+    assert simulator.commands[1:] == [*drives, Clear()]
 
 
 def test_the_pad_drives_by_mouse_touch_and_keyboard(simulator, open_page):
@@ -88,8 +85,8 @@ def test_the_pad_drives_by_mouse_touch_and_keyboard(simulator, open_page):
     forward.focus()
     page.keyboard.press("Enter")
     page.click("#clear")
-    wait_until(lambda: page_commands.Clear() in simulator.commands)
-    assert simulator.commands[:-1] == 3 * [page_commands.Drive("turtle1", 2.0, 0.0)]
+    wait_until(lambda: Clear() in simulator.commands)
+    assert simulator.commands[:-1] == 3 * [Drive("turtle1", 2.0, 0.0)]
 
 
 def test_a_button_that_is_held_repeats_its_command(simulator, page):
@@ -97,7 +94,7 @@ def test_a_button_that_is_held_repeats_its_command(simulator, page):
     page.mouse.down()
     wait_until(lambda: len(simulator.commands) > 3)
     page.mouse.up()
-    assert {*simulator.commands} == {page_commands.Drive("turtle1", 0.0, 2.0)}
+    assert {*simulator.commands} == {Drive("turtle1", 0.0, 2.0)}
 
 
 def test_keys_and_buttons_turn_to_a_heading(simulator, page):
@@ -116,13 +113,13 @@ def test_keys_and_buttons_turn_to_a_heading(simulator, page):
     page.get_by_role("button", name="turn to 90°").click()
     page.get_by_role("button", name="cancel the rotation").click()
     wait_until(lambda: len(simulator.commands) == 12)
-    turns = [page_commands.Rotate("turtle1", theta) for theta in headings.values()]
-    cancel = page_commands.Cancel("turtle1")
+    turns = [Rotate("turtle1", theta) for theta in headings.values()]
+    cancel = Cancel("turtle1")
     assert simulator.commands == [
         *turns,
         cancel,
         cancel,
-        page_commands.Rotate("turtle1", 1.5708),
+        Rotate("turtle1", 1.5708),
         cancel,
     ]
     wait_for_text(
@@ -141,7 +138,7 @@ def test_another_turtle_can_be_chosen(simulator, open_page):
     assert page.inner_text("#driven") == "turtle2"
     page.keyboard.press("ArrowUp")
     wait_for_pixel(page, "turtles", 6.0, 2.0, is_opaque)
-    assert simulator.commands == [page_commands.Drive("turtle2", 2.0, 0.0)]
+    assert simulator.commands == [Drive("turtle2", 2.0, 0.0)]
     wait_for_text(page, "#words", "of turtle1")
 
 
@@ -149,12 +146,12 @@ def test_a_crowd_moves_and_draws(simulator, page):
     """More than a hundred come as arrays, and are drawn turned beforehand."""
     for k in range(150):
         place = 2.0 + 0.02 * k
-        simulator._queue.put(page_commands.Spawn(place, place, 0.0, f"member{k}"))
+        simulator._queue.put(Spawn(place, place, 0.0, f"member{k}"))
     wait_for_text(page, "#more", "and 91 more")
     wait_for_pixel(page, "turtles", 2.0, 2.0, is_opaque)
     assert pixel(page, "turtles", 4.0, 2.0)[3] == 0
     for k in range(150):
-        simulator._queue.put(page_commands.Drive(f"member{k}", 2.0, 0.0))
+        simulator._queue.put(Drive(f"member{k}", 2.0, 0.0))
     wait_for_pixel(page, "turtles", 4.0, 2.0, is_opaque)
     wait_for_pixel(page, "ground", 2.5, 2.0, lambda colour: not is_ground(colour))
     wait_for_pixel(page, "turtles", 2.0, 2.0, lambda colour: colour[3] == 0)  # its neighbours, too
@@ -190,7 +187,7 @@ def test_a_missing_turtle_is_offered(simulator, page):
     simulator.missing = ("turtle2",)
     page.get_by_role("button", name="Spawn turtle2").click()
     wait_for_pixel(page, "turtles", 4.0, 2.0, is_opaque)
-    assert simulator.commands == [page_commands.Spawn(4.0, 2.0, 0.0, "turtle2")]
+    assert simulator.commands == [Spawn(4.0, 2.0, 0.0, "turtle2")]
     simulator.missing = ()
     page.wait_for_selector("#hint", state="hidden")
 
@@ -208,7 +205,7 @@ def test_a_turtle_is_chosen_and_dragged_on_the_field(simulator, open_page):
     page.mouse.up()
     wait_until(lambda: simulator.commands)
     (command,) = simulator.commands
-    assert command == page_commands.Teleport(
+    assert command == Teleport(
         "turtle2", pytest.approx(8.0, abs=0.05), pytest.approx(3.0, abs=0.05), pytest.approx(0.5)
     )
     wait_for_pixel(page, "turtles", 8.0, 3.0, is_opaque)
@@ -227,9 +224,7 @@ def test_a_new_turtle_is_placed_on_the_field(simulator, page):
     wait_until(lambda: simulator.commands)
     near = pytest.approx
     assert simulator.commands == [
-        page_commands.Spawn(
-            near(2.0, abs=0.05), near(9.0, abs=0.05), near(-math.pi / 2, abs=0.05), ""
-        )
+        Spawn(near(2.0, abs=0.05), near(9.0, abs=0.05), near(-math.pi / 2, abs=0.05), "")
     ]
     assert not page.is_visible("#placing")
     wait_for_pixel(page, "turtles", 2.0, 9.0, is_opaque)
@@ -250,8 +245,8 @@ def test_a_finger_chooses_and_places_turtles(simulator, open_page):
     wait_until(lambda: len(simulator.commands) == 2)
     near = pytest.approx
     assert simulator.commands == [
-        page_commands.Rotate("turtle2", 2.3562),
-        page_commands.Spawn(near(8.0, abs=0.1), near(8.0, abs=0.1), 0.0, ""),
+        Rotate("turtle2", 2.3562),
+        Spawn(near(8.0, abs=0.1), near(8.0, abs=0.1), 0.0, ""),
     ]
     wait_for_pixel(page, "turtles", 8.0, 8.0, is_opaque)
 

@@ -398,15 +398,8 @@ def test_mimic_does_what_the_other_does(world):
     from turtlesim.mimic import MimicNode
 
     world.call(Spawn, "/spawn", x=2.0, y=2.0, name="follower")
-    mimic = MimicNode(
-        cli_args=[
-            "--ros-args",
-            "-r",
-            "input/pose:=/turtle1/pose",
-            "-r",
-            "output/cmd_vel:=/follower/cmd_vel",
-        ]
-    )
+    rules = "-r input/pose:=/turtle1/pose -r output/cmd_vel:=/follower/cmd_vel"
+    mimic = MimicNode(cli_args=["--ros-args", *rules.split()])
     world.executor.add_node(mimic)
     poses = world.listen(Pose, "/follower/pose")
     world.talk("/turtle1/cmd_vel").publish(twist(1.0, 0.5))
