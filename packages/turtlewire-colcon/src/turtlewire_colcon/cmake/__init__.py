@@ -10,8 +10,7 @@ module          contents
 `conditions`    the conditions of ``if`` and ``while``
 `interpreter`   variables, and the order in which commands run
 `basics`        ``set``, ``list``, ``string``, ``message``, ``option`` …
-`files`         ``file``, ``configure_file``, ``get_filename_component``, ``include``
-`installing`    ``install``
+`files`         ``file``, ``configure_file``, ``install``, ``include`` …
 `ament`         ``find_package``, ``ament_…``, ``rosidl_generate_interfaces``, ``xacro_add_files``
 `targets`       commands that compile C++, and commands without an effect here
 `processes`     ``execute_process``, ``add_custom_command``, ``add_custom_target``

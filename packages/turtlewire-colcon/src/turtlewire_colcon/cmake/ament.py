@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from turtlewire_colcon.cmake.installing import destination
+from turtlewire_colcon.cmake.files import destination
 from turtlewire_colcon.cmake.plan import (
     Install,
     Interfaces,

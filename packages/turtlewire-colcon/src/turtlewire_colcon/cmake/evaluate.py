@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from turtlewire_colcon.cmake.ament import AMENT, OWN_PARTS, XACRO
 from turtlewire_colcon.cmake.basics import BASICS
 from turtlewire_colcon.cmake.files import FILES
-from turtlewire_colcon.cmake.installing import INSTALLING
 from turtlewire_colcon.cmake.interpreter import Interpreter
 from turtlewire_colcon.cmake.plan import Plan
 from turtlewire_colcon.cmake.processes import PROCESSES
@@ -74,7 +73,7 @@ def evaluate_package(
             f"there is no {path}, which the build_type ament_cmake in package.xml requires"
         )
     interpreter = Interpreter(
-        BASICS | FILES | PROCESSES | INSTALLING | TARGETS | AMENT | XACRO,
+        BASICS | FILES | PROCESSES | TARGETS | AMENT | XACRO,
         plan,
         variables,
         environment,
