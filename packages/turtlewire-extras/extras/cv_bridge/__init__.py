@@ -2,13 +2,12 @@
 
 OpenCV itself is needed for compressed images, and for Bayer and YUV encodings.
 
-===========  ======================================================
+===========  =================================================================
 module       contents
-===========  ======================================================
+===========  =================================================================
 `core`       `CvBridge`
-`encodings`  pixel types by encoding, and OpenCV's type numbers
-`colors`     converts between color spaces
-===========  ======================================================
+`encodings`  encodings, OpenCV's type numbers, conversions between color spaces
+===========  =================================================================
 """
 
 from cv_bridge.core import CvBridge, CvBridgeError

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cv_bridge.colors import convert
 from cv_bridge.encodings import (
     DEPTHS,
     Encoding,
+    convert,
     cv_type,
     parse_encoding,
     parse_type_name,

@@ -2,17 +2,13 @@
 
 Component containers load the classes below as ``demo_nodes_cpp::Talker`` and so on.
 
-======================  ==============================================
-module                  contents
-======================  ==============================================
-`topics`                ``talker`` and ``listener``
-`services`              ``add_two_ints_server`` and its clients
-`parameter_blackboard`  a node that holds any parameters
-======================  ==============================================
+=======  ==============================
+module   contents
+=======  ==============================
+`nodes`  the nodes, and the executables
+=======  ==============================
 """
 
-from demo_nodes_cpp.parameter_blackboard import ParameterBlackboard
-from demo_nodes_cpp.services import ServerNode
-from demo_nodes_cpp.topics import Listener, Talker
+from demo_nodes_cpp.nodes import Listener, ParameterBlackboard, ServerNode, Talker
 
 __all__ = ["Listener", "ParameterBlackboard", "ServerNode", "Talker"]

@@ -3,10 +3,9 @@
 ====================  ===========================================================
 module                contents
 ====================  ===========================================================
-`_status_wrapper`     `DiagnosticStatusWrapper`, which a task fills
-`_tasks`              tasks of functions, of several tasks, and lists of tasks
 `_update_functions`   tasks that watch frequencies and stamps
-`_updater`            `Updater`, which runs the tasks and publishes
+`_updater`            tasks, the status that a task fills, and `Updater`, which runs the
+                      tasks and publishes
 `_publisher`          publishers whose frequency and stamps are watched
 ====================  ===========================================================
 """
@@ -16,13 +15,6 @@ from diagnostic_updater._publisher import (
     HeaderlessTopicDiagnostic,
     TopicDiagnostic,
 )
-from diagnostic_updater._status_wrapper import DiagnosticStatusWrapper
-from diagnostic_updater._tasks import (
-    CompositeDiagnosticTask,
-    DiagnosticTask,
-    DiagnosticTaskVector,
-    FunctionDiagnosticTask,
-)
 from diagnostic_updater._update_functions import (
     FrequencyStatus,
     FrequencyStatusParam,
@@ -30,7 +22,14 @@ from diagnostic_updater._update_functions import (
     TimeStampStatus,
     TimeStampStatusParam,
 )
-from diagnostic_updater._updater import Updater
+from diagnostic_updater._updater import (
+    CompositeDiagnosticTask,
+    DiagnosticStatusWrapper,
+    DiagnosticTask,
+    DiagnosticTaskVector,
+    FunctionDiagnosticTask,
+    Updater,
+)
 
 __all__ = [
     "CompositeDiagnosticTask",

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from diagnostic_updater._tasks import CompositeDiagnosticTask
 from diagnostic_updater._update_functions import FrequencyStatus, TimeStampStatus
+from diagnostic_updater._updater import CompositeDiagnosticTask
 
 if TYPE_CHECKING:
-    from diagnostic_updater._tasks import DiagnosticTaskVector
     from diagnostic_updater._update_functions import FrequencyStatusParam, TimeStampStatusParam
+    from diagnostic_updater._updater import DiagnosticTaskVector
     from rclpy.publisher import Publisher
 
 __all__ = ["DiagnosedPublisher", "HeaderlessTopicDiagnostic", "TopicDiagnostic"]

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from diagnostic_updater._tasks import DiagnosticTask
+from diagnostic_updater._updater import DiagnosticTask
 from rclpy.clock import Clock
 from rclpy.time import Time
 
 if TYPE_CHECKING:
-    from diagnostic_updater._status_wrapper import DiagnosticStatusWrapper
+    from diagnostic_updater._updater import DiagnosticStatusWrapper
 
 __all__ = [
     "FrequencyStatus",

@@ -1,20 +1,154 @@
-"""Runs the diagnostic tasks of a node and publishes their statuses."""
+"""Diagnostic tasks, the status that each of them fills, and `Updater`, which publishes it."""
 
 from __future__ import annotations
 
+import threading
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from diagnostic_updater._status_wrapper import DiagnosticStatusWrapper
-from diagnostic_updater._tasks import DiagnosticTaskVector
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 if TYPE_CHECKING:
-    from diagnostic_updater._tasks import DiagnosticTask
     from rclpy.node import Node
 
-__all__ = ["Updater"]
+__all__ = [
+    "CompositeDiagnosticTask",
+    "DiagnosticStatusWrapper",
+    "DiagnosticTask",
+    "DiagnosticTaskVector",
+    "FunctionDiagnosticTask",
+    "Updater",
+]
 
+
+_OK = DiagnosticStatus.OK
 _PERIOD, _FULL_NAME = "diagnostic_updater.period", "diagnostic_updater.use_fqn"
+
+
+class DiagnosticStatusWrapper(DiagnosticStatus):
+    """A ``DiagnosticStatus`` that a task fills."""
+
+    def summary(self, *status_or_level_and_message: Any) -> None:
+        """Set level and message: ``summary(level, message)``, or as another status has them."""
+        self.level, self.message = _level_and_message(status_or_level_and_message)
+
+    def clearSummary(self) -> None:  # noqa: N802  ROS 2's name
+        """Set the level OK, and no message."""
+        self.summary(_OK, "")
+
+    def mergeSummary(self, *status_or_level_and_message: Any) -> None:  # noqa: N802
+        """Add level and message: the worse level wins, and its message.
+
+        Messages are joined if both say that something is wrong, or both that nothing is.
+        """
+        level, message = _level_and_message(status_or_level_and_message)
+        if (level > _OK) == (self.level > _OK):
+            self.message = "; ".join(text for text in (self.message, message) if text)
+        elif level > self.level:
+            self.message = message
+        self.level = max(level, self.level)
+
+    def add(self, key: str, val: Any) -> None:
+        """Add a value, as text."""
+        self.values.append(KeyValue(key=key, value=str(val)))
+
+
+def _level_and_message(given: tuple[Any, ...]) -> tuple[bytes, str]:
+    level, message = (given[0].level, given[0].message) if len(given) == 1 else given
+    return bytes([level]) if isinstance(level, int) else level, message
+
+
+class DiagnosticTask:
+    """Base of all tasks.
+
+    Args:
+        name: Its name, which the status has after that of the node.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def getName(self) -> str:  # noqa: N802  ROS 2's name
+        """Return the name."""
+        return self.name
+
+    def run(self, stat: DiagnosticStatusWrapper) -> DiagnosticStatusWrapper:
+        """Fill the status, and return it."""
+        raise NotImplementedError
+
+
+class FunctionDiagnosticTask(DiagnosticTask):
+    """A task that calls a function.
+
+    Args:
+        name: Its name.
+        fn: Fills the status, and returns it.
+    """
+
+    def __init__(
+        self, name: str, fn: Callable[[DiagnosticStatusWrapper], DiagnosticStatusWrapper]
+    ) -> None:
+        super().__init__(name)
+        self.fn = fn
+
+    def run(self, stat: DiagnosticStatusWrapper) -> DiagnosticStatusWrapper:
+        return self.fn(stat) or stat
+
+
+class CompositeDiagnosticTask(DiagnosticTask):
+    """Several tasks with one status: their summaries are merged, and their values listed."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name)
+        self.tasks: list[DiagnosticTask] = []
+
+    def addTask(self, task: DiagnosticTask) -> None:  # noqa: N802  ROS 2's name
+        """Add a task."""
+        self.tasks.append(task)
+
+    def run(self, stat: DiagnosticStatusWrapper) -> DiagnosticStatusWrapper:
+        before, merged = DiagnosticStatusWrapper(), DiagnosticStatusWrapper()
+        before.summary(stat)
+        for task in self.tasks:
+            stat.summary(before)
+            stat = task.run(stat)
+            merged.mergeSummary(stat)
+        stat.summary(merged)
+        return stat
+
+
+class DiagnosticTaskVector:
+    """A list of tasks. Thread-safe."""
+
+    def __init__(self) -> None:
+        self.lock = threading.RLock()
+        self.tasks: list[DiagnosticTask] = []
+
+    def add(self, *task_or_name_and_function: Any) -> None:
+        """Add a task: ``add(task)``, or ``add(name, function)``.
+
+        Raises:
+            TypeError: The arguments are something else.
+        """
+        task, *rest = task_or_name_and_function
+        if rest:
+            task = FunctionDiagnosticTask(task, *rest)
+        elif not isinstance(task, DiagnosticTask):
+            raise TypeError(f"expected a task, or a name and a function, got {task!r}")
+        with self.lock:
+            self.tasks.append(task)
+        self._added(task)
+
+    def removeByName(self, name: str) -> bool:  # noqa: N802  ROS 2's name
+        """Remove the tasks with a name; return False if no task has it."""
+        with self.lock:
+            rest = [task for task in self.tasks if task.name != name]
+            found = len(rest) < len(self.tasks)
+            self.tasks = rest
+            return found
+
+    def _added(self, task: DiagnosticTask) -> None:
+        """Publish that there is a new task; of `Updater`."""
 
 
 class Updater(DiagnosticTaskVector):
