@@ -4,6 +4,5 @@
 module                            contents
 ================================  ==========================================
 `check_urdf`, `urdf_to_graphviz`  the executables
-`reading`                         reads the file of a command line
 ================================  ==========================================
 """

@@ -4,17 +4,30 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from turtlewire.program import program
 from turtlewire.terminal.printable import printable
-from turtlewire.urdf import UrdfError
-from urdfdom.reading import read_robot
-
-if TYPE_CHECKING:
-    from turtlewire.urdf import Robot
+from turtlewire.urdf import Robot, UrdfError
+from turtlewire.urdf.faults import log_lines
 
 _USAGE = "Expect URDF xml file to parse. Use - for stdin"
+
+
+def read_robot(path: str) -> Robot:
+    """Return the robot in a file; ``-`` is stdin. Errors and warnings are printed on stderr.
+
+    Raises:
+        OSError: The file cannot be read.
+        UrdfError: urdfdom rejects the description.
+    """
+    try:
+        robot = Robot.from_xml(sys.stdin.buffer.read()) if path == "-" else Robot.load(path)
+    except UrdfError as error:
+        print(*log_lines(error), sep="\n", file=sys.stderr)  # noqa: T201
+        raise
+    for warning in robot.warnings:
+        print(*log_lines(warning), sep="\n", file=sys.stderr)  # noqa: T201
+    return robot
 
 
 def tree_lines(robot: Robot) -> Iterator[str]:

@@ -12,7 +12,7 @@ from turtlewire.terminal.printable import printable
 from turtlewire.tf.drawing import Drawing, FilledBox, Line, Text, text_width
 from turtlewire.tf.tree_drawing import tidy_positions
 from turtlewire.urdf import UrdfError
-from urdfdom.reading import read_robot
+from urdfdom.check_urdf import read_robot
 
 if TYPE_CHECKING:
     from turtlewire.tf.drawing import Shape
@@ -75,14 +75,12 @@ def _dot_from_robot(robot: Robot) -> str:
 
 
 def _arrows(joint: Joint) -> Iterator[str]:
-    xyz, rpy = (" ".join(f"{number:g}" for number in row) for row in _origin(joint))
+    xyz, rpy = (
+        " ".join(f"{number:g}" for number in row) for row in (joint.origin.xyz, joint.origin.rpy)
+    )
     name = _quoted(joint.name)
     yield f'{_quoted(joint.parent)} -> {name} [label="xyz: {xyz} \\nrpy: {rpy}"]'
     yield f"{name} -> {_quoted(joint.child)}"
-
-
-def _origin(joint: Joint) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    return joint.origin.xyz, joint.origin.rpy
 
 
 def _in_depth(robot: Robot) -> Iterator[Joint]:

@@ -74,3 +74,8 @@ def open_page(browser):
     for context in contexts:
         context.close()
     assert errors == []
+
+
+@pytest.fixture
+def page(gui, open_page):
+    return open_page(gui.screen.url)

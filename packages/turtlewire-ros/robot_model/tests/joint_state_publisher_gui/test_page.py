@@ -29,8 +29,7 @@ def wait_for_value(page, name: str, text: str) -> None:
     )
 
 
-def test_all_joints_are_shown_with_their_limits_and_formulas(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_all_joints_are_shown_with_their_limits_and_formulas(gui, page):
     wait_for_value(page, "lift", "0.300")
     assert page.locator(".joint").count() == 5
     assert page.title() == "crane · Joint State Publisher"
@@ -48,16 +47,14 @@ def test_all_joints_are_shown_with_their_limits_and_formulas(gui, open_page):
     assert row(page, "twin").locator("svg[role=img]").count() == 1
 
 
-def test_a_slider_moves_its_joint_and_those_that_follow(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_a_slider_moves_its_joint_and_those_that_follow(gui, page):
     row(page, "elbow").locator("input[type=range]").fill("10000")
     assert gui.next_command() == Set("elbow", 2.0)
     wait_for_value(page, "wrist", "-0.750")
     assert gui.joints.free["elbow"].position == 2.0
 
 
-def test_a_value_is_typed_in_the_unit_that_is_shown(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_a_value_is_typed_in_the_unit_that_is_shown(gui, page):
     page.get_by_role("button", name="Degrees").click()
     wait_for_value(page, "wrist", "14.3")
     assert row(page, "wrist").locator("small").inner_text() == "= -0.5 · elbow + 14.3239"
@@ -70,8 +67,7 @@ def test_a_value_is_typed_in_the_unit_that_is_shown(gui, open_page):
     wait_for_value(page, "lift", "0.500")
 
 
-def test_an_angle_of_more_than_half_a_turn_is_typed_for_an_endless_joint(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_an_angle_of_more_than_half_a_turn_is_typed_for_an_endless_joint(gui, page):
     page.get_by_role("button", name="Degrees").click()
     value(page, "swivel").fill("270")
     value(page, "swivel").press("Enter")
@@ -79,8 +75,7 @@ def test_an_angle_of_more_than_half_a_turn_is_typed_for_an_endless_joint(gui, op
     wait_for_value(page, "swivel", "-90.0")
 
 
-def test_nonsense_in_a_field_changes_nothing(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_nonsense_in_a_field_changes_nothing(gui, page):
     value(page, "elbow").fill("")
     value(page, "elbow").press("Enter")
     page.get_by_role("button", name="Center").click()
@@ -88,8 +83,7 @@ def test_nonsense_in_a_field_changes_nothing(gui, open_page):
     wait_for_value(page, "elbow", "0.000")
 
 
-def test_keys_and_a_double_click(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_keys_and_a_double_click(gui, page):
     slider = row(page, "elbow").locator("input[type=range]")
     slider.focus()
     page.keyboard.press("+")
@@ -104,8 +98,7 @@ def test_keys_and_a_double_click(gui, open_page):
         assert command.joint == "swivel"
 
 
-def test_a_dial_is_turned_beyond_half_a_turn(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_a_dial_is_turned_beyond_half_a_turn(gui, page):
     box = row(page, "swivel").locator("svg").bounding_box()
     x, y, r = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0.3 * box["width"]
     page.mouse.move(x + r, y)
@@ -123,8 +116,7 @@ def test_a_dial_is_turned_beyond_half_a_turn(gui, open_page):
     assert gui.joints.free["swivel"].position == pytest.approx(expected, abs=0.05)
 
 
-def test_randomize_play_and_pause(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_randomize_play_and_pause(gui, page):
     page.get_by_role("button", name="Randomize").click()
     assert gui.next_command() == Randomize()
     page.get_by_role("button", name="Play").click()
@@ -140,23 +132,20 @@ def test_randomize_play_and_pause(gui, open_page):
     page.wait_for_selector("#play[aria-pressed=false]")
 
 
-def test_search(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_search(gui, page):
     page.keyboard.press("/")
     page.keyboard.type("W i")
     page.get_by_text("3 of 5 joints").wait_for()  # the joints may come after the page is live
     assert page.locator(".joint:visible").count() == 3
 
 
-def test_a_slash_searches_after_a_slider_was_used(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_a_slash_searches_after_a_slider_was_used(gui, page):
     row(page, "elbow").locator("input[type=range]").focus()
     page.keyboard.type("/elb")
     assert page.locator("#search").input_value() == "elb"
 
 
-def test_a_robot_without_joints_is_not_waited_for(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_a_robot_without_joints_is_not_waited_for(gui, page):
     row(page, "elbow").wait_for()
     gui.sliders.show(JointSet("rock"))
     gui.screen.update()
@@ -170,8 +159,7 @@ def test_a_robot_without_joints_is_not_waited_for(gui, open_page):
     assert page.get_by_role("button", name="Play").is_enabled()
 
 
-def test_another_robot_replaces_the_joints(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_another_robot_replaces_the_joints(gui, page):
     row(page, "elbow").wait_for()
     gui.sliders.show(JointSet())
     gui.screen.update()
@@ -187,8 +175,7 @@ def test_names_are_text_not_markup(gui, open_page):
     assert page.locator(".joint img").count() == 0
 
 
-def test_an_error_is_shown(gui, open_page):
-    page = open_page(gui.screen.url)
+def test_an_error_is_shown(gui, page):
     with connect(gui.screen.url.replace("http", "ws") + "live") as socket:
         socket.send('{"type": "set", "joint": "elbow", "position": "far"}')
         texts = [socket.recv(timeout=60) for _ in range(3)]
