@@ -5,8 +5,7 @@ module                  contents
 ======================  ===================================================
 `parser`                reads the files, with their comments
 `specification`         the content of these files
-`idl`                   the text of IDL files
-`conversion`            converts a file
+`idl`                   converts a file; the text of IDL files
 `msg`, `srv`, `action`  ROS 2's functions for each kind of file
 `resource`              templates of EmPy for these files
 `cli`, `main`           conversions on the command line

@@ -15,7 +15,7 @@ from rosidl_adapter.parser import (
 )
 
 if TYPE_CHECKING:
-    from pathlib import PurePath
+    from pathlib import Path, PurePath
 
     from rosidl_adapter.parser import Constant, Field
 
@@ -39,6 +39,42 @@ MSG_TYPE_TO_IDL = {
 
 # IDL has no empty structures; rosidl gives them this member.
 _EMPTY = "uint8 structure_needs_at_least_one_member;"
+
+
+def convert(
+    kind: str,
+    package_dir: Path,
+    package_name: str,
+    input_file: Path,
+    output_dir: Path,
+) -> Path:
+    """Write the IDL file, and print what is read and written.
+
+    Args:
+        kind: ``msg``, ``srv`` or ``action``, the suffix of the file.
+        package_dir: Folder of the package.
+        package_name: Its name.
+        input_file: Path of the file below the folder.
+        output_dir: Folder for the result.
+
+    Returns:
+        Path of the result.
+
+    Raises:
+        ValueError: A path is not as described.
+    """
+    if not package_dir.is_absolute() or input_file.is_absolute():
+        raise ValueError(f"'{package_dir}' must be absolute, and '{input_file}' relative")
+    if input_file.suffix != f".{kind}":
+        raise ValueError(f"'{input_file}' does not end in '.{kind}'")
+    source = package_dir / input_file
+    print(f"Reading input file: {source}")
+    text = interface_to_idl(package_name, input_file, source.read_text(encoding="utf-8"))
+    target = output_dir / f"{input_file.stem}.idl"
+    print(f"Writing output file: {target.absolute()}")
+    output_dir.mkdir(parents=True, exist_ok=True)
+    target.write_text(text, encoding="utf-8")
+    return target
 
 
 def interface_to_idl(package: str, source: PurePath, text: str) -> str:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rosidl_adapter.conversion import convert
 from rosidl_adapter.idl import (
     MSG_TYPE_TO_IDL,
+    convert,
     get_idl_type,
     get_include_file,
     string_to_idl_string_literal,

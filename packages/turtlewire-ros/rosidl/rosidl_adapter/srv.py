@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rosidl_adapter.conversion import convert
+from rosidl_adapter.idl import convert
 from rosidl_adapter.parser import parse_service_string
 from rosidl_adapter.resource import expand_template
 

@@ -9,6 +9,7 @@ import pytest
 from mcap_ros2._vendor.rosidl_adapter import parser as upstream
 from rosbags.typesys import get_types_from_idl, get_types_from_msg
 
+from ros2cli.main import main as ros2
 from rosidl_adapter import convert_to_idl, idl, parser
 from rosidl_adapter.cli import (
     TranslateActionToIDL,
@@ -20,6 +21,7 @@ from rosidl_adapter.cli import (
 from rosidl_adapter.main import main
 from rosidl_adapter.msg import convert_msg_to_idl
 from turtlewire import msg
+from turtlewire.msg.parser import parse_message
 from turtlewire.msg.registry import interface_text
 
 STAMPED = """# Where and when.
@@ -274,3 +276,40 @@ def test_files_of_a_package_are_translated(tmp_path, monkeypatch, capsys):
         TranslateMsgToIDL("probe2idl").translate("probe", ["srv/B.srv"], [], out)
     with pytest.raises(NotImplementedError):
         TranslateToIDL("probe2idl").translate("probe", ["srv/B.srv"], [], out)
+
+
+# The start of comments: the engine's parser, `rosidl_adapter` and `interface show` agree.
+
+COMMENTED = [
+    ('"x # y"', "x # y", ""),
+    ("'x # y'  # said", "x # y", "said"),
+    ('"x" # "y"', "x", '"y"'),
+    ("x # y", "x", "y"),
+    ("don't # can't", "don't", "can't"),
+    (r'"a \" # b" # c', 'a " # b', "c"),
+]
+
+
+@pytest.mark.parametrize(("text", "value", "comment"), COMMENTED)
+def test_readers_agree_on_constants(text, value, comment):
+    line = f"string NAME={text}"
+    (constant,) = parse_message("p/msg/Said", line).constants
+    (adapted,) = parser.parse_message_string("p", "Said", line).constants
+    assert constant.value == adapted.value == value
+    assert " ".join(adapted.annotations["comment"]).strip() == comment
+
+
+def test_readers_agree_on_defaults():
+    line = "string[] names ['a # b', \"c\"]  # two"
+    (field,) = parse_message("p/msg/Said", line).fields
+    (adapted,) = parser.parse_message_string("p", "Said", line).fields
+    assert list(field.default) == list(adapted.default_value) == ["a # b", "c"]
+
+
+def test_show_keeps_what_is_quoted(tmp_path, monkeypatch, capsys):
+    folder = tmp_path / "share" / "p_quoted" / "msg"
+    folder.mkdir(parents=True)
+    (folder / "Said.msg").write_text('string NAME="x # y"  # said\n')
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    assert ros2(["interface", "show", "--no-comments", "p_quoted/msg/Said"]) == 0
+    assert capsys.readouterr().out == 'string NAME="x # y"\n'
