@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import rclpy
@@ -35,12 +36,16 @@ class MinimalActionClient(Node):
         future.add_done_callback(self.goal_response_callback)
 
     def goal_response_callback(self, future: Future[Any]) -> None:
-        """Ask for the result if the goal was accepted."""
+        """Go on if the goal was accepted."""
         goal_handle = future.result()
         if not goal_handle.accepted:
             self.get_logger().info("Goal rejected :(")
             return
         self.get_logger().info("Goal accepted :)")
+        self.follow(goal_handle)
+
+    def follow(self, goal_handle: Any) -> None:
+        """Ask for the result."""
         goal_handle.get_result_async().add_done_callback(self.get_result_callback)
 
     def feedback_callback(self, feedback: Any) -> None:
@@ -54,13 +59,18 @@ class MinimalActionClient(Node):
             self.get_logger().info(f"Goal succeeded! Result: {answer.result.sequence}")
         else:
             self.get_logger().info(f"Goal failed with status: {answer.status}")
-        # Lets `rclpy.spin` in `main` return.
+        # Lets `rclpy.spin` return.
         rclpy.shutdown()
+
+
+def send(make_client: Callable[[], MinimalActionClient], args: list[str] | None) -> None:
+    """Make a client, send its goal and spin it until it shuts down."""
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+        node = make_client()
+        node.send_goal()
+        rclpy.spin(node)
 
 
 def main(args: list[str] | None = None) -> None:
     """Send one goal and wait for its result."""
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
-        node = MinimalActionClient()
-        node.send_goal()
-        rclpy.spin(node)
+    send(MinimalActionClient, args)
