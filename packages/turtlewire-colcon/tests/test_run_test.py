@@ -8,14 +8,16 @@ import pytest
 from turtlewire_colcon.run_test import main
 
 
+def status_of(tmp_path, kind, words, *flags, timeout="60"):
+    options = ["--kind", kind, "--name", "pkg.a", "--timeout", timeout, *flags]
+    options += ["--result", str(tmp_path / "results/a.xunit.xml")]
+    return main([*options, "--folder", str(tmp_path / "build"), "--", *words])
+
+
 def result_of(tmp_path, kind, words, timeout="60"):
     """Exit status, and the message of the failure in the result file, or what it is else."""
-    path = tmp_path / "results" / "a.xunit.xml"
-    status = main(
-        ["--kind", kind, "--name", "pkg.a", "--result", str(path), "--timeout", timeout,
-         "--folder", str(tmp_path / "build"), "--", *words]
-    )  # fmt: skip
-    case = ET.parse(path).find(".//testcase")
+    status = status_of(tmp_path, kind, words, timeout=timeout)
+    case = ET.parse(tmp_path / "results/a.xunit.xml").find(".//testcase")
     failure, skipped = case.find("failure"), case.find("skipped")
     failure = case.find("error") if failure is None else failure
     if skipped is not None:
@@ -55,13 +57,7 @@ def test_pytest_writes_the_result_itself(tmp_path):
 def test_no_selected_test_is_no_failure(tmp_path):
     (tmp_path / "test_it.py").write_text("def test_it():\n    assert 1 == 2\n")
     words = [str(tmp_path / "test_it.py"), "-k", "another"]
-    assert main_status(tmp_path, words) == 0
-
-
-def main_status(tmp_path, words):
-    result = str(tmp_path / "a.xunit.xml")
-    options = ["--kind", "pytest", "--name", "a", "--result", result, "--timeout", "60"]
-    return main([*options, "--folder", str(tmp_path), "--", *words])
+    assert status_of(tmp_path, "pytest", words) == 0
 
 
 @pytest.mark.parametrize(
@@ -102,9 +98,5 @@ def test_a_domain_of_its_own(tmp_path, monkeypatch, wanted):
     if not wanted:
         monkeypatch.setenv("DISABLE_ROS_ISOLATION", "")
     source = "import os, sys; sys.exit(int(os.environ['ROS_DOMAIN_ID'] == '231'))"
-    status = main(
-        ["--kind", "command", "--name", "pkg.a", "--result", str(tmp_path / "a.xunit.xml"),
-         "--timeout", "60", "--folder", str(tmp_path), "--isolated",
-         "--", sys.executable, "-c", source]
-    )  # fmt: skip
-    assert status == (0 if wanted else 1)
+    command = [sys.executable, "-c", source]
+    assert status_of(tmp_path, "command", command, "--isolated") == (0 if wanted else 1)
