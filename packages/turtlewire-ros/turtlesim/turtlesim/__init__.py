@@ -5,7 +5,7 @@ module                               contents
 ===================================  =========================================================
 `turtlesim_node`, `options`          the simulator's node; its command line
 `pace`                               the speed of the simulation, and pauses
-`model`, `physics`                   the turtles and their world; the formulas of a tick and a line
+`model`, `physics`                   the turtles and their world; the formulas
 `crowd`                              many turtles in one tick
 `path`, `path_bulk`                  pixels that pens paint: one line, many lines
 `turtle_endpoints`                   topics, services and action of one turtle
