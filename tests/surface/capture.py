@@ -1,4 +1,4 @@
-"""The public surface of installed packages as plain data, as `tests/golden/surface` holds it.
+"""The public surface of installed packages as plain data, as `tests/golden/surface.json` holds it.
 
 A package is a mapping of its modules to what they hold: names, parameters, bases and members.
 """

@@ -1,6 +1,6 @@
 """Compares installed packages with the surface of a real ROS 2 Jazzy.
 
-    python tests/surface/compare.py rclpy tf2 …    # names of tests/golden/surface
+    python tests/surface/compare.py rclpy tf2 …    # names of tests/golden/surface.json
 
 prints each difference and `N of M equal`. A call that is written for ROS 2 must work here: the
 parameters have ROS 2's names, places and defaults. Further optional parameters, annotations and
@@ -17,7 +17,7 @@ from pathlib import Path
 
 from capture import surface
 
-GOLDEN = Path(__file__).parents[1] / "golden" / "surface"
+GOLDEN = Path(__file__).parents[1] / "golden" / "surface.json"
 
 
 @dataclass
@@ -56,8 +56,8 @@ class Comparison:
 
 
 def compare(golden):
-    """Compares all packages of one file."""
-    real = json.loads((GOLDEN / f"{golden}.json").read_text())
+    """Compares all packages of one name."""
+    real = json.loads(GOLDEN.read_text(encoding="utf-8"))[golden]
     here = {}
     for package in sorted({module.partition(".")[0] for module in real}):
         here.update(surface(package))

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import atexit
+import functools
 import re
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 from tests import archive
 
 HERE = Path(__file__).parent
+INPUTS = HERE / "inputs.txt"
 
 
 @dataclass(frozen=True)
@@ -30,8 +34,18 @@ class Case:
 
 def captures() -> list[Case]:
     """All captures, by their numbers."""
-    entries = [item for path in HERE.glob("*.txt") for item in archive.read(path).items()]
+    files = set(HERE.glob("*.txt")) - {INPUTS}
+    entries = [item for path in files for item in archive.read(path).items()]
     return [_parse(name, entry.content.decode()) for name, entry in sorted(entries)]
+
+
+@functools.cache
+def inputs() -> Path:
+    """The folder of the launch and parameter files which the commands use."""
+    folder = tempfile.TemporaryDirectory()
+    atexit.register(folder.cleanup)
+    archive.unpack(INPUTS, Path(folder.name))
+    return Path(folder.name)
 
 
 def _parse(name: str, text: str) -> Case:

@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
-from tests.golden.cli.captures import Case, captures
+from tests.golden.cli.captures import Case, captures, inputs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -58,7 +58,7 @@ def run(case: Case, timeout: float = 30.0, environment: Mapping[str, str] | None
     env.pop("PYTHONDONTWRITEBYTECODE", None)
     pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     words = ["bash", "-c", case.command] if "|" in case.command else shlex.split(case.command)
-    process = subprocess.Popen(words, cwd=HERE / "inputs", env=env, start_new_session=True, **pipes)
+    process = subprocess.Popen(words, cwd=inputs(), env=env, start_new_session=True, **pipes)
     stdout, stderr = _Reader(process.stdout), _Reader(process.stderr)
     suffix = b""
     try:

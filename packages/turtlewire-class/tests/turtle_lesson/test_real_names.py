@@ -1,6 +1,6 @@
 """The student's files use only what a real ROS 2 has: names, members and keywords.
 
-`tests/golden/surface` was captured from a real ROS 2 Jazzy.
+`tests/golden/surface.json` was captured from a real ROS 2 Jazzy.
 """
 
 import ast
@@ -12,13 +12,9 @@ from tests.places import LESSONS
 
 from tests import places
 
-GOLDEN = places.GOLDEN / "surface"
+GOLDEN = json.loads((places.GOLDEN / "surface.json").read_text(encoding="utf-8"))
 FILES = sorted(LESSONS.glob("*/*/*.py"))
-SURFACE = {
-    module: names
-    for file in ("rclpy", "tf2")
-    for module, names in json.loads((GOLDEN / f"{file}.json").read_text(encoding="utf-8")).items()
-}
+SURFACE = GOLDEN["rclpy"] | GOLDEN["tf2"]
 #: Without a captured surface: the standard library and the messages, whose definitions are ROS 2's.
 OTHERS = {"math", "sys", "geometry_msgs.msg", "turtlesim.msg"}
 #: Compiled names, which the capture left out; the document's own listener imports it.

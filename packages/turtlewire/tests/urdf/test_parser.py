@@ -18,6 +18,10 @@ from turtlewire.urdf.values import as_number
 
 GOLDEN = places.GOLDEN / "robots"
 INVALID = archive.read(GOLDEN / "invalid.txt")
+VALID = {
+    name.removesuffix(".urdf"): entry.content.decode()
+    for name, entry in archive.read(GOLDEN / "urdf.txt").items()
+}
 REFUSED = json.loads(INVALID["expected.json"].content)
 LINES = {
     "bad_number": (6, '<origin> in <joint name="j">'),
@@ -71,14 +75,15 @@ def test_golden_invalid_files_are_all_there():
         ("weaver", 8, 7, "loom"),
     ],
 )
-def test_golden_robots(name, links, joints, root):
-    found = Robot.load(GOLDEN / "urdf" / f"{name}.urdf")
+def test_golden_robots(tmp_path, name, links, joints, root):
+    (tmp_path / "robot.urdf").write_text(VALID[name])
+    found = Robot.load(tmp_path / "robot.urdf")
     assert (len(found.links), len(found.joints), found.root) == (links, joints, root)
     assert found.warnings == ()
 
 
 def test_contents_of_the_model():
-    sluice = Robot.load(GOLDEN / "urdf" / "sluice.urdf")
+    sluice = Robot.from_xml(VALID["sluice"])
     base = sluice.links["sluice_base"]
     assert base.visuals[0].geometry == Box((0.1, 0.2, 0.1))
     assert base.visuals[0].origin == Pose((0.0, 0.0, 0.05))
@@ -92,10 +97,10 @@ def test_contents_of_the_model():
     assert (bend.safety.soft_lower_limit, bend.safety.k_velocity) == (0.4, 5.0)
     assert sluice.joints["lift"].axis == (0.0, 0.0, 2.0)  # as the file gives it
     assert sluice.joints["turn"].dynamics.damping == 0.7
-    weaver = Robot.load(GOLDEN / "urdf" / "weaver.urdf")
+    weaver = Robot.from_xml(VALID["weaver"])
     assert weaver.joints["a_follow"].mimic == Mimic("m_source", -0.5, 0.25)
     assert weaver.joints["plain_mimic"].mimic == Mimic("m_source", 1.0, 0.0)
-    raft = Robot.load(GOLDEN / "urdf" / "raft.urdf")
+    raft = Robot.from_xml(VALID["raft"])
     assert raft.links["raft_root"].inertial.izz == 0.03
     assert [joint.name for joint in raft.child_joints["raft_root"]] == ["drift", "slide"]
     assert raft.parent_joints["deck"].name == "drift"
@@ -318,7 +323,7 @@ def test_any_text_is_a_robot_or_a_refusal(text):
 
 @given(st.data())
 def test_a_damaged_robot_is_a_robot_or_a_refusal(data):
-    text = (GOLDEN / "urdf" / "raft.urdf").read_text()
+    text = VALID["raft"]
     begin = data.draw(st.integers(0, len(text)))
     end = data.draw(st.integers(begin, min(len(text), begin + 40)))
     piece = data.draw(st.text(alphabet='<>/" 01.e-nx', max_size=8))

@@ -6,7 +6,7 @@ import shlex
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from tests.golden.cli.captures import captures
+from tests.golden.cli.captures import captures, inputs
 from tests.programs import run_python
 
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
@@ -14,10 +14,8 @@ from rclpy.impl import log_output
 from rclpy.impl.arguments import Arguments
 from rclpy.impl.rcl_lexer import Lexeme, Lexer, RuleError
 from rclpy.impl.rcl_yaml_param_parser import parse_file, parse_value
-from tests import places
 from turtlewire.wire import names
 
-INPUTS = places.GOLDEN / "cli" / "inputs"
 #: Runs of a whole node (it ends by Ctrl-C; a parameter of turtlesim has the wrong type):
 #: tests/rclpy and tests/turtlesim play them.
 NEEDS_A_NODE = {"160_rosargs_rclpy_param_range", "170_rosargs_rclcpp_wrong_param_type"}
@@ -52,7 +50,7 @@ def test_the_golden_cases_are_there():
 
 @pytest.mark.parametrize("name", CASES)
 def test_golden_errors(name, capfd, monkeypatch):
-    monkeypatch.chdir(INPUTS)
+    monkeypatch.chdir(inputs())
     words, log, error = golden(name)
     log_output.configure(file=False)
     with pytest.raises((RCLError, UnknownROSArgsError)) as caught:
@@ -70,7 +68,7 @@ def test_golden_exit_codes(name):
     """
     words, _, error = golden(name)
     program = "import sys, rclpy; rclpy.init(args=sys.argv)"
-    run = run_python(program, "--ros-args", *words, check=False, timeout=300, cwd=INPUTS)
+    run = run_python(program, "--ros-args", *words, check=False, timeout=300, cwd=inputs())
     assert (run.returncode, run.stderr.splitlines()[-1]) == (CASES[name].exit_code, error)
 
 

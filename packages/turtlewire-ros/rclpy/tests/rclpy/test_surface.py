@@ -19,7 +19,7 @@ from rclpy.lifecycle import LifecycleNode
 from rclpy.node import Node
 from tests import places
 
-GOLDEN = places.GOLDEN / "surface"
+GOLDEN = places.GOLDEN / "surface.json"
 
 CONSTANTS = """
 rclpy.signals.SignalHandlerOptions: NO=0 SIGINT=1 SIGTERM=2 ALL=3
@@ -274,7 +274,7 @@ def test_a_program_may_have_attributes_of_its_own(context, kind):
         if not name.startswith(("_Node__", "_BaseNode__", "_LifecycleNodeMixin__"))
     } == set()
     public = {name for name in dir(Node) if not name.startswith("_")}
-    of_ros_2 = json.loads((GOLDEN / "rclpy.json").read_text())["rclpy.node"]["Node"]["members"]
+    of_ros_2 = json.loads(GOLDEN.read_text())["rclpy"]["rclpy.node"]["Node"]["members"]
     of_lyrical = {
         "get_action_client_names_and_types_by_node",
         "get_action_names_and_types",

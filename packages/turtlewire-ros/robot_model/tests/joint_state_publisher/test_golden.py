@@ -29,6 +29,7 @@ SCENARIOS = {
     for scenario in json.loads((GOLDEN / "jsp" / "scenarios.json").read_text())
 }
 ANSWERS = archive.read(GOLDEN / "jsp" / "answers.txt")
+URDF = archive.read(GOLDEN / "urdf.txt")
 #: Mended on purpose: the cases that differ.
 MENDED = set(re.findall(r"^\| jsp (\w+) ", (GOLDEN / "DEVIATIONS.md").read_text(), re.MULTILINE))
 WRONG = {"dependent_wrong"}
@@ -88,7 +89,7 @@ def make_rig(tmp_path):
     rclpy.init(context=context)
 
     def make_rig(scenario: dict) -> Rig:
-        text = (GOLDEN / "urdf" / f"{scenario['urdf']}.urdf").read_text()
+        text = URDF[f"{scenario['urdf']}.urdf"].content.decode()
         file = tmp_path / "robot.urdf"
         file.write_text(text)
         rig = Rig(

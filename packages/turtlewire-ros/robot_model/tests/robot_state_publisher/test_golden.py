@@ -19,6 +19,7 @@ from tests import archive, places
 GOLDEN = places.GOLDEN / "robots"
 SCENARIOS = {each["name"]: each for each in json.loads((GOLDEN / "rsp/scenarios.json").read_text())}
 ANSWERS = archive.read(GOLDEN / "rsp/answers.txt")
+URDF = archive.read(GOLDEN / "urdf.txt")
 INVALID = archive.read(GOLDEN / "invalid.txt")
 REFUSED = json.loads(INVALID["expected.json"].content)
 STARTUPS = {each["name"]: each for each in json.loads((GOLDEN / "rsp/startups.json").read_text())}
@@ -36,7 +37,7 @@ WARNED_TWICE = {"change_sluice_raft"}
 
 
 def text_of(name):
-    return (GOLDEN / "urdf" / f"{name}.urdf").read_text()
+    return URDF[f"{name}.urdf"].content.decode()
 
 
 def golden(name):

@@ -3,7 +3,6 @@
 import io
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from tests.places import BIN
@@ -12,7 +11,7 @@ from tests import archive, places
 from urdfdom import check_urdf, urdf_to_graphviz
 
 GOLDEN = places.GOLDEN / "robots"
-RAFT = str(GOLDEN / "urdf" / "raft.urdf")
+RAFT = archive.read(GOLDEN / "urdf.txt")["raft.urdf"].content
 
 TREE = """robot name is: raft
 ---------- Successfully Parsed XML ---------------
@@ -33,14 +32,22 @@ ERROR: Model Parsing the xml failed
 """
 
 
-def test_the_tree(capsys):
-    assert check_urdf.main(["check_urdf", RAFT]) == 0
+@pytest.fixture
+def raft(tmp_path):
+    """The path of a valid file."""
+    path = tmp_path / "raft.urdf"
+    path.write_bytes(RAFT)
+    return str(path)
+
+
+def test_the_tree(capsys, raft):
+    assert check_urdf.main(["check_urdf", raft]) == 0
     assert capsys.readouterr().out == TREE
 
 
 def test_from_stdin(capsys, monkeypatch):
     class Stdin:
-        buffer = io.BytesIO(Path(RAFT).read_bytes())
+        buffer = io.BytesIO(RAFT)
 
     monkeypatch.setattr(sys, "stdin", Stdin)
     assert check_urdf.main(["check_urdf", "-"]) == 0
@@ -77,9 +84,9 @@ def test_usage(program, text, capsys):
     assert text in capsys.readouterr().out
 
 
-def test_drawings(capsys, monkeypatch, tmp_path):
+def test_drawings(capsys, monkeypatch, tmp_path, raft):
     monkeypatch.chdir(tmp_path)
-    assert urdf_to_graphviz.main(["urdf_to_graphviz", RAFT]) == 0
+    assert urdf_to_graphviz.main(["urdf_to_graphviz", raft]) == 0
     assert capsys.readouterr().out == "Created file raft.gv\nCreated file raft.pdf\n"
     dot = (tmp_path / "raft.gv").read_text()
     assert '"lamp_fix" -> "lamp"\n' in dot
@@ -96,9 +103,9 @@ def test_a_robot_cannot_choose_the_folder(monkeypatch, tmp_path):
     assert sorted(path.name for path in folder.iterdir()) == [".._evil.gv", ".._evil.pdf"]
 
 
-def test_a_closed_pipe_is_quiet():
+def test_a_closed_pipe_is_quiet(raft):
     chain = subprocess.run(
-        f"{sys.executable} -m urdfdom.check_urdf {RAFT} | true",
+        f"{sys.executable} -m urdfdom.check_urdf {raft} | true",
         shell=True,
         capture_output=True,
         timeout=300,

@@ -39,7 +39,7 @@ def run(capfd, *words):
 @pytest.mark.parametrize("bag", BAGS)
 @pytest.mark.parametrize(("key", "options"), [("info", []), ("info_v", ["-v"]), ("info_t", ["-t"])])
 def test_info(capfd, bag, key, options):
-    expected = json.loads((GOLDEN / f"{bag}.reads.json").read_text())["texts"][key]
+    expected = json.loads((GOLDEN / "reads.json").read_text())[bag]["texts"][key]
     status, out, err = run(capfd, "info", *options, str(GOLDEN / bag))
     equal = {
         "exit": status == expected["exit"],

@@ -23,7 +23,7 @@ def bag(request):
 
 @pytest.fixture
 def golden(bag):
-    return json.loads((GOLDEN / f"{bag}.reads.json").read_text())["reads"]
+    return json.loads((GOLDEN / "reads.json").read_text())[bag]["reads"]
 
 
 @pytest.fixture
@@ -50,8 +50,8 @@ def short(rows):
 
 
 def all_messages(bag):
-    with gzip.open(GOLDEN / f"{bag}.messages.json.gz", "rt") as file:
-        return json.load(file)
+    with gzip.open(GOLDEN / "messages.json.gz", "rt") as file:
+        return json.load(file)[bag]
 
 
 def test_topics_and_definitions(reader, golden):

@@ -16,7 +16,7 @@ from tests import archive
 from turtlesim.model import Pen, World
 from turtlesim.path import PathImage
 
-TRACED = {path.stem: archive.read(path) for path in (GOLDEN / "sim").glob("*.txt")}
+TRACED = archive.read(GOLDEN / "sim" / "traces.txt")
 #: name -> number of ticks in the trace
 TRACES = {
     "arc": 144,
@@ -39,11 +39,11 @@ def float32(value: float) -> float:
 
 
 def read_csv(trace: str, name: str) -> list[dict[str, str]]:
-    return list(csv.DictReader(TRACED[trace][name].content.decode().splitlines()))
+    return list(csv.DictReader(TRACED[f"{trace}/{name}"].content.decode().splitlines()))
 
 
 def read_json(trace: str, name: str) -> dict:
-    return json.loads(TRACED[trace][name].content)
+    return json.loads(TRACED[f"{trace}/{name}"].content)
 
 
 class Replay:
@@ -99,8 +99,9 @@ def replays() -> dict[str, Replay]:
 
 
 def test_every_trace_of_the_shelf_is_replayed():
-    assert TRACED.keys() == TRACES.keys()
-    assert {name for name in TRACED if "path_pixels.json" in TRACED[name]} == set(PICTURES)
+    files = [name.split("/") for name in TRACED]
+    assert {trace for trace, _ in files} == TRACES.keys()
+    assert {trace for trace, file in files if file == "path_pixels.json"} == PICTURES.keys()
     assert sum(TRACES.values()) == 2397
 
 
