@@ -1,7 +1,5 @@
-#include "additions.hpp"
-
 #include "../feeds/tf_message.hpp"
-#include "buffer.hpp"
+#include "buffer_methods.hpp"
 #include "bytes.hpp"
 #include "errors.hpp"
 

@@ -14,29 +14,11 @@ Stamps integers_of(nb::handle object) {
 }  // namespace
 
 nb::object checked_array(const char* function, nb::handle object) {
-  PyObject* array = taking_gil([=]() -> PyObject* {
-    PyObject* module = PyImport_ImportModule("turtlewire.tf.array_arguments");
-    if (module == nullptr) return nullptr;
-    PyObject* result = PyObject_CallMethod(module, function, "(O)", object.ptr());
-    Py_DECREF(module);
-    return result;
-  });
-  if (array == nullptr) throw nb::python_error();
-  return nb::steal(array);
+  return checked(call_python("turtlewire.tf.array_arguments", function, "(O)", object.ptr()));
 }
 
 nb::object make_answer(const char* name, const nb::tuple& fields) {
-  const nb::object answer = nb::steal(taking_gil([&]() -> PyObject* {
-    PyObject* module = PyImport_ImportModule("turtlewire.tf.answers");
-    if (module == nullptr) return nullptr;
-    PyObject* type = PyObject_GetAttrString(module, name);
-    Py_DECREF(module);
-    PyObject* made = type == nullptr ? nullptr : PyObject_CallObject(type, fields.ptr());
-    Py_XDECREF(type);
-    return made;
-  }));
-  if (!answer.is_valid()) throw nb::python_error();
-  return answer;
+  return checked(call_python("turtlewire.tf.answers", name, "O", fields.ptr()));
 }
 
 Stamps stamps_of(nb::handle object) {

@@ -1,7 +1,6 @@
 // NumPy arrays in and out.
 #pragma once
 
-#include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
 #include <algorithm>
@@ -11,12 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "../core/samples.hpp"
-#include "gil.hpp"
+#include "python.hpp"
 
 namespace turtlewire::python {
-
-namespace nb = nanobind;
 
 using Stamps = nb::ndarray<const Stamp, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 

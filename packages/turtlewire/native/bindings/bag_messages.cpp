@@ -1,5 +1,3 @@
-#include "bag_messages.hpp"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,16 +11,12 @@
 #include "../feeds/ros1_to_cdr.hpp"
 #include "../feeds/sqlite_table.hpp"
 #include "bytes.hpp"
+#include "types.hpp"
 
 namespace turtlewire::python {
 namespace {
 
 using namespace nb::literals;
-
-nb::object checked(PyObject* object) {
-  if (object == nullptr) throw nb::python_error();
-  return nb::steal(object);
-}
 
 nb::object bytes_of(std::span<const unsigned char> data) {
   return checked(PyBytes_FromStringAndSize(reinterpret_cast<const char*>(data.data()),

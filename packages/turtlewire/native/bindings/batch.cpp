@@ -1,4 +1,4 @@
-#include "batch.hpp"
+#include "../core/batch.hpp"
 
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
@@ -11,9 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "../core/batch.hpp"
 #include "arrays.hpp"
-#include "buffer.hpp"
+#include "buffer_methods.hpp"
 #include "errors.hpp"
 
 namespace turtlewire::python {

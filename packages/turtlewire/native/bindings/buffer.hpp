@@ -81,8 +81,6 @@ class BufferObject {
   std::array<KnownPath, 256> known_paths_;
 };
 
-void add_buffer_type(nb::module_& module);
-
 // Raises the error of a question without an answer, for functions of nanobind.
 [[noreturn]] void throw_failure(BufferObject& buffer, const Failure& failure, Question question);
 

@@ -3,14 +3,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 
-#include "additions.hpp"
-#include "batch.hpp"
-#include "buffer.hpp"
+#include "buffer_methods.hpp"
 #include "errors.hpp"
-#include "histories.hpp"
-#include "inspection.hpp"
 #include "lookup_arguments.hpp"
 #include "transform.hpp"
+#include "types.hpp"
 
 namespace turtlewire::python {
 namespace {
@@ -127,16 +124,7 @@ nb::object on_change(BufferObject& buffer, const Values<1>& given) {
     buffer.listeners_changed();
   }
   const nb::object remove = nb::find(buffer).attr("_remove_change_listener");
-  const auto bound = nb::steal(taking_gil([&]() -> PyObject* {
-    PyObject* functools = PyImport_ImportModule("functools");
-    if (functools == nullptr) return nullptr;
-    PyObject* result =
-        PyObject_CallMethod(functools, "partial", "(OO)", remove.ptr(), listener.ptr());
-    Py_DECREF(functools);
-    return result;
-  }));
-  if (!bound.is_valid()) throw nb::python_error();
-  return bound;
+  return checked(call_python("functools", "partial", "OO", remove.ptr(), listener.ptr()));
 }
 
 constexpr Parameters<2> kBuffer{"Buffer", 0, 2, {"cache_time_ns", "max_frames"}};
@@ -159,18 +147,6 @@ void remove_change_listener(BufferObject& self, nb::handle listener) {
       return;
     }
   }
-}
-
-PyObject* buffer_svg(PyObject* self) {
-  PyObject* svg = taking_gil([self]() -> PyObject* {
-    PyObject* notebook = PyImport_ImportModule("turtlewire.tf.notebook");
-    if (notebook == nullptr) return nullptr;
-    PyObject* result = PyObject_CallMethod(notebook, "buffer_svg", "(O)", self);
-    Py_DECREF(notebook);
-    return result;
-  });
-  if (svg == nullptr) throw nb::python_error();
-  return svg;
 }
 
 int traverse(PyObject* self, visitproc visit, void* arg) {
@@ -277,8 +253,7 @@ BufferObject* buffer_of(PyObject* self) {
 void bind_methods(nb::handle buffer_type) {
   for (PyMethodDef* method = methods.data(); method->ml_name != nullptr; ++method) {
     const nb::object bound =
-        nb::steal(PyDescr_NewMethod(reinterpret_cast<PyTypeObject*>(buffer_type.ptr()), method));
-    if (!bound.is_valid()) throw nb::python_error();
+        checked(PyDescr_NewMethod(reinterpret_cast<PyTypeObject*>(buffer_type.ptr()), method));
     nb::setattr(buffer_type, method->ml_name, bound);
   }
 }
@@ -341,7 +316,10 @@ void add_buffer_type(nb::module_& module) {
           },
           "tf2's list of frames and parents, one line each.")
       .def(
-          "_repr_svg_", [](nb::handle self) { return nb::steal(buffer_svg(self.ptr())); },
+          "_repr_svg_",
+          [](nb::handle self) {
+            return checked(call_python("turtlewire.tf.notebook", "buffer_svg", "(O)", self.ptr()));
+          },
           "The tree of frames as SVG, for notebooks.")
       .def("_remove_change_listener", &remove_change_listener, "call"_a)
       .def(

@@ -1,12 +1,10 @@
 // Bytes that belong to Python.
 #pragma once
 
-#include <Python.h>
-
 #include <cstddef>
 #include <span>
 
-#include "concrete.hpp"
+#include "python.hpp"
 
 namespace turtlewire::python {
 

@@ -1,5 +1,3 @@
-#include "cyclone.hpp"
-
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/vector.h>
@@ -16,6 +14,7 @@
 #include "../cyclone/library.hpp"
 #include "../cyclone/service_types.hpp"
 #include "../cyclone/writer.hpp"
+#include "types.hpp"
 
 namespace turtlewire::python {
 namespace {
@@ -44,9 +43,7 @@ nb::list take(const Library& library, Entity reader, std::int64_t most) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (!samples.valid(i)) continue;
       const std::size_t size = samples.bytes(i);
-      const auto bytes =
-          nb::steal(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size)));
-      if (!bytes.is_valid()) throw nb::python_error();
+      const auto bytes = checked(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size)));
       samples.copy(i, size, bytes_start(bytes.ptr()));
       list.append(nb::make_tuple(bytes, samples.publisher(i), samples.sent(i)));
     }

@@ -1,5 +1,3 @@
-#include "histories.hpp"
-
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "buffer_methods.hpp"
 #include "errors.hpp"
 
 namespace turtlewire::python {
@@ -89,7 +88,7 @@ nb::ndarray<nb::numpy, Stamp> stamps(BufferObject& self, std::string_view child)
 
 // (N, 7) from poses or matrices.
 nb::object pose_rows(PyObject* poses, bool skip) {
-  PyObject* rows = taking_gil([=]() -> PyObject* {
+  return checked(taking_gil([=]() -> PyObject* {
     PyObject* module = PyImport_ImportModule("turtlewire.tf.pose_rows");
     if (module == nullptr) return nullptr;
     PyObject* make = PyObject_GetAttrString(module, "pose_rows");
@@ -102,9 +101,7 @@ nb::object pose_rows(PyObject* poses, bool skip) {
     Py_XDECREF(arguments);
     Py_DECREF(make);
     return result;
-  });
-  if (rows == nullptr) throw nb::python_error();
-  return nb::steal(rows);
+  }));
 }
 
 // Samples of one link, to be added in the order of the rows.

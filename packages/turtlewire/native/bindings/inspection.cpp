@@ -1,5 +1,3 @@
-#include "inspection.hpp"
-
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/tuple.h>
@@ -10,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "buffer_methods.hpp"
 #include "errors.hpp"
 #include "transform.hpp"
 

@@ -1,5 +1,5 @@
 #define PY_SSIZE_T_CLEAN
-#include "intake.hpp"
+#include "../feeds/intake.hpp"
 
 #include <nanobind/stl/string_view.h>
 
@@ -11,10 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "../feeds/intake.hpp"
-#include "../feeds/sink.hpp"
+#include "../feeds/middleware.hpp"
 #include "buffer.hpp"
-#include "gil.hpp"
+#include "types.hpp"
 
 namespace turtlewire::python {
 namespace {

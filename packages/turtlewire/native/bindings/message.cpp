@@ -1,9 +1,8 @@
-#include "message.hpp"
-
 #include <cstring>
 
 #include "buffer.hpp"
 #include "lookup_arguments.hpp"
+#include "types.hpp"
 
 namespace turtlewire::python {
 namespace {

@@ -1,14 +1,6 @@
-#include "bag_messages.hpp"
-#include "buffer.hpp"
-#include "cyclone.hpp"
 #include "errors.hpp"
-#include "intake.hpp"
-#include "joint_frames.hpp"
-#include "joint_relay.hpp"
-#include "message.hpp"
-#include "record_walk.hpp"
 #include "transform.hpp"
-#include "zenoh.hpp"
+#include "types.hpp"
 
 NB_MODULE(_native, module) {
   using namespace turtlewire::python;
@@ -21,8 +13,7 @@ NB_MODULE(_native, module) {
   add_buffer_type(module);
   add_message_lookup_type(module);
   add_intake_type(module);
-  add_joint_frames_type(module);
-  add_joint_relay_type(module);
+  add_joint_types(module);
   add_record_walk_type(module);
   add_bag_message_types(module);
   add_cyclone_types(module);

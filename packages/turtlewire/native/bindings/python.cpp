@@ -3,27 +3,13 @@
 namespace turtlewire::python {
 namespace {
 
-// Converts an object that is not an int with turtlewire.tf.datetimes, which raises for most.
-PyObject* from_datetime(PyObject* object, const char* what) {
-  return taking_gil([=]() -> PyObject* {
-    PyObject* module = PyImport_ImportModule("turtlewire.tf.datetimes");
-    if (module == nullptr) return nullptr;
-    PyObject* result = PyObject_CallMethod(module, "nanoseconds", "(Os)", object, what);
-    Py_DECREF(module);
-    return result;
-  });
-}
-
 // Raises the error of turtlewire.tf.number_errors; `items` is null without a sequence. Errors other
 // than TypeError come from the caller's own objects and stay.
 void raise_no_numbers(PyObject* sequence, PyObject* items, const char* what) {
   if (PyErr_Occurred() != nullptr && PyErr_ExceptionMatches(PyExc_TypeError) == 0) return;
   PyErr_Clear();
-  PyObject* module = PyImport_ImportModule("turtlewire.tf.number_errors");
-  if (module == nullptr) return;
-  PyObject* error = PyObject_CallMethod(module, "numbers_error", "sOO", what, sequence,
-                                        items == nullptr ? Py_None : items);
-  Py_DECREF(module);
+  PyObject* error = call_python("turtlewire.tf.number_errors", "numbers_error", "sOO", what,
+                                sequence, items == nullptr ? Py_None : items);
   if (error == nullptr) return;
   PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error)), error);
   Py_DECREF(error);
@@ -32,13 +18,7 @@ void raise_no_numbers(PyObject* sequence, PyObject* items, const char* what) {
 // Raises the error that a function of turtlewire.call_errors makes.
 template <typename... Arguments>
 void raise_made(const char* function, const char* format, Arguments... arguments) {
-  PyObject* error = taking_gil([=]() -> PyObject* {
-    PyObject* module = PyImport_ImportModule("turtlewire.call_errors");
-    if (module == nullptr) return nullptr;
-    PyObject* made = PyObject_CallMethod(module, function, format, arguments...);
-    Py_DECREF(module);
-    return made;
-  });
+  PyObject* error = call_python("turtlewire.call_errors", function, format, arguments...);
   if (error != nullptr) PyErr_SetObject(PyExc_TypeError, error);
   Py_XDECREF(error);
 }
@@ -79,7 +59,7 @@ bool nanoseconds_of_other(PyObject* object, Stamp& value, const char* what) {
     PyErr_Format(PyExc_OverflowError, "%s does not fit into 64 bits of nanoseconds", what);
   if (!PyErr_ExceptionMatches(PyExc_TypeError)) return false;
   PyErr_Clear();
-  PyObject* number = from_datetime(object, what);
+  PyObject* number = call_python("turtlewire.tf.datetimes", "nanoseconds", "Os", object, what);
   if (number == nullptr) return false;
   value = PyLong_AsLongLong(number);
   Py_DECREF(number);

@@ -14,12 +14,29 @@
 #include <vector>
 
 #include "../core/samples.hpp"
-#include "concrete.hpp"
 #include "gil.hpp"
 
 namespace turtlewire::python {
 
 namespace nb = nanobind;
+
+// Inside of tuples and bytes: CPython's macros where a wheel is for one version, and the functions
+// of the stable ABI where it is for all later ones.
+#if defined(Py_LIMITED_API)
+inline Py_ssize_t tuple_size(PyObject* tuple) { return PyTuple_Size(tuple); }
+inline PyObject* tuple_item(PyObject* tuple, Py_ssize_t i) { return PyTuple_GetItem(tuple, i); }
+inline void set_tuple_item(PyObject* tuple, Py_ssize_t i, PyObject* item) {
+  PyTuple_SetItem(tuple, i, item);
+}
+inline char* bytes_start(PyObject* bytes) { return PyBytes_AsString(bytes); }
+#else
+inline Py_ssize_t tuple_size(PyObject* tuple) { return PyTuple_GET_SIZE(tuple); }
+inline PyObject* tuple_item(PyObject* tuple, Py_ssize_t i) { return PyTuple_GET_ITEM(tuple, i); }
+inline void set_tuple_item(PyObject* tuple, Py_ssize_t i, PyObject* item) {
+  PyTuple_SET_ITEM(tuple, i, item);
+}
+inline char* bytes_start(PyObject* bytes) { return PyBytes_AS_STRING(bytes); }
+#endif
 
 // A method in the vectorcall convention, as the method table wants it. No C++ exception may pass
 // through Python.
@@ -48,6 +65,26 @@ PyMethodDef fast_method(const char* name, const char* doc) {
   const FastMethod method = guarded<Method>;
   return {name, reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(method)),
           METH_FASTCALL | METH_KEYWORDS, doc};
+}
+
+// Owns a new reference; throws the Python error for a null.
+inline nb::object checked(PyObject* object) {
+  if (object == nullptr) throw nb::python_error();
+  return nb::steal(object);
+}
+
+// Calls a function of a module, which is imported only now, with arguments as PyObject_CallMethod()
+// takes them. Null with a Python error set.
+template <typename... Arguments>
+PyObject* call_python(const char* home, const char* function, const char* format,
+                      Arguments... arguments) {
+  return taking_gil([=]() -> PyObject* {
+    PyObject* module = PyImport_ImportModule(home);
+    if (module == nullptr) return nullptr;
+    PyObject* result = PyObject_CallMethod(module, function, format, arguments...);
+    Py_DECREF(module);
+    return result;
+  });
 }
 
 // A tuple of objects; null with a Python error set.

@@ -1,14 +1,13 @@
-#include "record_walk.hpp"
+#include "../feeds/record_walk.hpp"
 
 #include <nanobind/stl/string.h>
 
 #include <cstdint>
 #include <vector>
 
-#include "../feeds/record_walk.hpp"
 #include "buffer.hpp"
 #include "bytes.hpp"
-#include "gil.hpp"
+#include "types.hpp"
 
 namespace turtlewire::python {
 namespace {
@@ -39,24 +38,18 @@ std::int64_t walk(RecordWalk& self, BufferObject& buffer, nb::handle records,
   return damage == RecordWalk::kNoDamage ? -1 : static_cast<std::int64_t>(damage);
 }
 
-nb::object text(const std::string& name) {
-  PyObject* decoded =
-      PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "replace");
-  if (decoded == nullptr) throw nb::python_error();
-  return nb::steal(decoded);
-}
-
 nb::list jumps(const RecordWalk& self) {
   nb::list list;
   for (const JumpBack& jump : self.jumps())
-    list.append(nb::make_tuple(jump.log_time, text(jump.child), jump.by));
+    list.append(nb::make_tuple(jump.log_time, checked(to_python(jump.child)), jump.by));
   return list;
 }
 
 nb::dict steps_back(const RecordWalk& self) {
   nb::dict steps;
   for (const auto& [child, clock] : self.clocks()) {
-    if (clock.back > 0) steps[text(child)] = nb::make_tuple(clock.steps_back, clock.back);
+    if (clock.back > 0)
+      steps[checked(to_python(child))] = nb::make_tuple(clock.steps_back, clock.back);
   }
   return steps;
 }

@@ -38,18 +38,10 @@ PyObject* floats(std::initializer_list<double> values) {
 constexpr char kArrays[] = "turtlewire.tf.arrays", kProducts[] = "turtlewire.tf.products";
 
 // NumPy is imported there, only when an array or a picture is asked for.
-template <typename... Arguments>
-PyObject* call_helper(const char* home, const char* helper, Arguments... arguments) {
-  return taking_gil([=]() -> PyObject* {
-    PyObject* module = PyImport_ImportModule(home);
-    if (module == nullptr) return nullptr;
-    PyObject* function = PyObject_GetAttrString(module, helper);
-    Py_DECREF(module);
-    if (function == nullptr) return nullptr;
-    PyObject* result = PyObject_CallFunctionObjArgs(function, arguments..., nullptr);
-    Py_DECREF(function);
-    return result;
-  });
+template <typename... Objects>
+PyObject* call_helper(const char* home, const char* helper, Objects... arguments) {
+  constexpr const char* formats[] = {"()", "(O)", "(OO)", "(OOO)", "(OOOO)", "(OOOOO)"};
+  return call_python(home, helper, formats[sizeof...(arguments)], arguments...);
 }
 
 constexpr Parameters<5> kTransform{

@@ -1,6 +1,3 @@
-#define PY_SSIZE_T_CLEAN
-#include "zenoh.hpp"
-
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "../feeds/sink.hpp"
+#include "../feeds/middleware.hpp"
 #include "../zenoh/origins.hpp"
-#include "gil.hpp"
+#include "types.hpp"
 
 namespace turtlewire::python {
 namespace {

@@ -11,11 +11,20 @@
 #include <vector>
 
 #include "fork.hpp"
-#include "received_transform.hpp"
 #include "shared_lock.hpp"
 #include "tree.hpp"
 
 namespace turtlewire {
+
+// A serialized transform, in the bytes of a message.
+struct ReceivedTransform {
+  Stamp stamp;
+  std::string_view parent, child;
+  const unsigned char* numbers;  // the seven of its pose, as doubles
+  bool swapped;                  // the numbers have the other byte order
+
+  Pose pose() const;
+};
 
 // A thread that sleeps until the data changes. `wake` must neither block nor throw.
 class Waiter {

@@ -4,7 +4,7 @@
 #include <new>
 #include <vector>
 
-#include "../feeds/sink.hpp"
+#include "../feeds/middleware.hpp"
 #include "library.hpp"
 
 namespace turtlewire::cyclone {

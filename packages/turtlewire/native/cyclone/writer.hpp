@@ -7,7 +7,7 @@
 #include <mutex>
 #include <span>
 
-#include "../feeds/outlet.hpp"
+#include "../feeds/middleware.hpp"
 #include "library.hpp"
 #include "service_types.hpp"
 

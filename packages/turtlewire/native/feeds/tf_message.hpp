@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../core/received_transform.hpp"
+#include "../core/shared_buffer.hpp"
 
 namespace turtlewire {
 

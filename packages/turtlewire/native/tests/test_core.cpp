@@ -14,7 +14,7 @@
 #include "../core/batch.hpp"
 #include "../core/shared_buffer.hpp"
 #include "../feeds/intake.hpp"
-#include "../feeds/joint_relay.hpp"
+#include "../feeds/joints.hpp"
 #include "../feeds/record_walk.hpp"
 #include "../feeds/tf_message.hpp"
 

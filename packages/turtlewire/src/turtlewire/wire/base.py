@@ -90,9 +90,9 @@ class Event(Entity):
 class Sink(Protocol):
     """Native code that takes the messages of a subscription on the middleware's own threads.
 
-    It is a ``turtlewire::Sink`` (``native/feeds/sink.hpp``). When its ``receive`` returns true, the
-    middleware's reader thread calls :meth:`serve` until nothing is left, or the subscription
-    without ``on_message`` becomes ready, and its ``take`` calls :meth:`serve`.
+    It is a ``turtlewire::Sink`` (``native/feeds/middleware.hpp``). When its ``receive`` returns
+    true, the middleware's reader thread calls :meth:`serve` until nothing is left, or the
+    subscription without ``on_message`` becomes ready, and its ``take`` calls :meth:`serve`.
     """
 
     def serve(self, gid_of: Callable[[int], bytes]) -> list[tuple[bytes, int, int]]:
@@ -110,7 +110,7 @@ class Sink(Protocol):
 
 
 class Outlet(Protocol):
-    """Native code that sends messages: a ``turtlewire::Outlet`` (``native/feeds/outlet.hpp``)."""
+    """Native code that sends messages: ``turtlewire::Outlet`` (``native/feeds/middleware.hpp``)."""
 
 
 class Publisher(Entity):

@@ -1,7 +1,7 @@
-// Answers JointStates with TFMessages on the thread that receives them, and keeps back those that
-// need Python.
+// From the bytes of JointStates to those of TFMessages, for joints that were worked out before.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -15,11 +15,42 @@
 
 #include "../core/fork.hpp"
 #include "backlog.hpp"
-#include "joint_frames.hpp"
-#include "outlet.hpp"
+#include "middleware.hpp"
 
 namespace turtlewire {
 
+// One joint: its transform is made of its position, which is factor * positions[source] + offset.
+struct JointFrame {
+  // Translation at 0 (3), its change by the position (3), the quaternion that cos(position / 2)
+  // multiplies (4), the one that sin(position / 2) multiplies (4), 1 if the joint turns, else 0.
+  std::array<double, 15> constants;
+  std::size_t source;
+  double factor, offset;
+  std::size_t stamp_at, pose_at;  // where its stamp and its seven numbers are in the message
+};
+
+class JointFrames {
+ public:
+  static constexpr std::size_t kStampAt = 4;  // in a JointState
+
+  // `message` is a TFMessage whose stamps and poses are rewritten each time. Throws
+  // std::invalid_argument if they do not lie within it.
+  JointFrames(std::vector<unsigned char> message, std::vector<JointFrame> joints);
+
+  std::size_t size() const { return message_.size(); }
+  // Writes size() bytes. `positions` is where the first position is in the JointState. False if the
+  // JointState ends before the last position.
+  bool write(std::span<const unsigned char> joint_state, std::size_t positions,
+             unsigned char* out) const;
+
+ private:
+  std::vector<unsigned char> message_;
+  std::vector<JointFrame> joints_;
+  std::size_t sources_ = 0;  // how many positions a JointState must have
+};
+
+// Answers JointStates on the thread that receives them, and keeps back those that need Python.
+//
 // Python handles JointStates with names that are not known yet, malformed ones, those that find the
 // clock set back, those whose skipping is worth a log line, and those whose answer cannot be sent
 // at once. It asks for the same stamps, and reports the stamps of its own answers. The order of all
