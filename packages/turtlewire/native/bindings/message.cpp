@@ -177,7 +177,8 @@ class MessageLookup {
       : maker(example), owner_(std::move(buffer)) {
     if (!nb::isinstance<BufferObject>(owner_))
       throw nb::type_error("the first argument must be a native Buffer");
-    this->buffer = nb::inst_ptr<BufferObject>(owner_);
+    this->buffer = buffer_of(owner_.ptr());
+    if (this->buffer == nullptr) throw nb::python_error();
   }
 
   nb::handle owner() const { return owner_; }

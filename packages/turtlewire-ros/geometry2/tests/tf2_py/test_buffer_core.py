@@ -247,7 +247,7 @@ def test_the_hint_of_a_buffer_that_refused_all() -> None:
     assert caught.value.hint.endswith(" buffer.engine.problems() lists them.")
 
 
-def test_classes_without_slots_are_refused() -> None:
+def test_what_a_message_lookup_refuses() -> None:
     if messages.CORE != "native":
         pytest.skip(COMPILED_CORE)
     import turtlewire
@@ -262,6 +262,9 @@ def test_classes_without_slots_are_refused() -> None:
         _native.MessageLookup(turtlewire.Buffer(), Loose())
     with pytest.raises(TypeError, match="native Buffer"):
         _native.MessageLookup(object(), TransformStamped())  # type: ignore[arg-type]
+    without_init = turtlewire.Buffer.__new__(turtlewire.Buffer)
+    with pytest.raises(RuntimeError, match=r"Buffer.__init__\(\) was not called"):
+        _native.MessageLookup(without_init, TransformStamped())
 
 
 # Every answer of the real tf2_py of Jazzy and Lyrical, on both cores.
