@@ -9,7 +9,6 @@ per second.
 from __future__ import annotations
 
 import math
-import os
 import statistics
 import subprocess
 import sys
@@ -18,7 +17,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback
 
 TITLE = "A crowd of processes on one host, one node each"
 ROUNDS = 3
@@ -26,29 +25,17 @@ BUDGET = "<= 3 s"
 #: A small process that imports little besides what it measures; the tests run it, too.
 MEMBER = Path(__file__).parents[1] / "packages/turtlewire/tests/wire/peers/crowd.py"
 #: A domain whose ports lie below those that systems hand out: 120 processes take all that it has.
-ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "95", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+ENVIRONMENT = on_loopback(95)
 
 
 def rows() -> Iterator[Row]:
     at_once = [start(50, each_second=math.inf)[0] for _ in range(ROUNDS)]
-    yield Row(
-        "50 that start at once: the last one's start until all see all", figure(at_once), {}, BUDGET
-    )
-    joining = [let_one_join(50) for _ in range(ROUNDS)]
-    yield Row(
-        "the 50th, beside 49: its start until all see all",
-        figure([seconds for seconds, _ in joining]),
-        {},
-        BUDGET,
-    )
-    yield Row(
-        "memory of each of the 50 (proportional)", figure([size for _, size in joining], "MB")
-    )
-
-
-def figure(values: list[float], unit: str = "ns") -> Figure:
-    factor = 1e9 if unit == "ns" else 1.0
-    return Figure(min(values) * factor, statistics.median(values) * factor, unit)
+    what = "50 that start at once: the last one's start until all see all"
+    yield Row(what, Figure.of(at_once, factor=1e9), {}, BUDGET)
+    seconds, megabytes = zip(*(let_one_join(50) for _ in range(ROUNDS)), strict=True)
+    what = "the 50th, beside 49: its start until all see all"
+    yield Row(what, Figure.of(seconds, factor=1e9), {}, BUDGET)
+    yield Row("memory of each of the 50 (proportional)", Figure.of(megabytes, "MB"))
 
 
 class Member:
@@ -118,11 +105,8 @@ def let_one_join(count: int) -> tuple[float, float]:
 def main() -> None:
     if len(sys.argv) != 3:
         sys.exit("usage: python -m benchmarks.crowd COUNT STARTS_PER_SECOND")
-    else:
-        seconds, megabytes = start(int(sys.argv[1]), float(sys.argv[2]))
-        print(
-            f"from the last one's start until all see all: {seconds:.1f} s; {megabytes:.1f} MB each"
-        )
+    seconds, megabytes = start(int(sys.argv[1]), float(sys.argv[2]))
+    print(f"from the last one's start until all see all: {seconds:.1f} s; {megabytes:.1f} MB each")
 
 
 if __name__ == "__main__":

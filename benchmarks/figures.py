@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
+import statistics
 import subprocess
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
 
 FACTORS = {"ns": 1.0, "µs": 1e3, "ms": 1e6, "s": 1e9}
 
@@ -21,6 +27,11 @@ class Figure:
     minimum: float
     median: float
     unit: str = "ns"
+
+    @classmethod
+    def of(cls, values: Sequence[float], unit: str = "ns", *, factor: float = 1.0) -> Figure:
+        """Return the figure of measured values, each times a factor."""
+        return cls(factor * min(values), factor * statistics.median(values), unit)
 
     def text(self) -> str:
         if self.unit != "ns":
@@ -44,6 +55,41 @@ class Row:
     floor: Figure | None = None
 
 
+def on_loopback(domain: int, **more: str) -> dict[str, str]:
+    """Return the environment of processes that find each other only on this host."""
+    local = {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    return {**os.environ, **local, **more}
+
+
+def printed(
+    command: Sequence[str | Path],
+    environment: Mapping[str, str] | None = None,
+    timeout_s: float | None = None,
+) -> Any:
+    """Run a command and return what is in the JSON on the last line of its output."""
+    done = subprocess.run(
+        command, env=environment, stdout=subprocess.PIPE, check=True, timeout=timeout_s
+    )
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+def printed_by_pair(
+    program: Sequence[str], server: str, asker: str, environment: Mapping[str, str]
+) -> dict[str, float]:
+    """Return the figures that two runs of a program print.
+
+    The names of its parts are the last word of each. The server's input ends after the asker.
+    """
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with subprocess.Popen([*program, server], env=environment, **pipes) as serving:
+        try:
+            asked = printed([*program, asker], environment, 120)
+            served, _ = serving.communicate(timeout=60)
+        finally:  # of one that waits for the other, which failed
+            serving.kill()
+    return {**json.loads(served or "{}"), **asked}
+
+
 ADAPTERS = Path(__file__).parent / "rivals"
 
 
@@ -61,10 +107,5 @@ def run_adapter(interpreter: str, adapter: str, *, needs: str = "") -> dict[str,
             reason = attempt.stderr.strip().splitlines()[-1]
             print(f"{adapter} is left out: {interpreter}: {reason}", file=sys.stderr)
             return {}
-    run = subprocess.run(
-        [interpreter, str(ADAPTERS / f"{adapter}.py")],
-        stdout=subprocess.PIPE,
-        check=True,
-        text=True,
-    )
-    return {case: Figure(*values) for case, values in json.loads(run.stdout).items()}
+    cases = printed([interpreter, ADAPTERS / f"{adapter}.py"])
+    return {case: Figure(*values) for case, values in cases.items()}

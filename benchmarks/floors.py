@@ -7,7 +7,6 @@ import os
 import re
 import shutil
 import socket
-import statistics
 import subprocess
 import sys
 import threading
@@ -52,11 +51,8 @@ def one_way(rate: str = "1kHz") -> dict[str, Figure] | None:
         )
     seconds = [tuple(map(float, match)) for match in _LINE.findall(ping.stdout)]
     means, medians, tails = zip(*seconds[1:], strict=True)  # the first second has the discovery
-    return {"mean": _figure(means), "p50": _figure(medians), "p99": _figure(tails)}
-
-
-def _figure(microseconds: tuple[float, ...]) -> Figure:
-    return Figure(min(microseconds) * 1e3, statistics.median(microseconds) * 1e3)
+    found = {"mean": means, "p50": medians, "p99": tails}
+    return {name: Figure.of(values, factor=1e3) for name, values in found.items()}
 
 
 def sleep_cpu(period_s: float = 0.01) -> Figure:
@@ -68,7 +64,7 @@ def sleep_cpu(period_s: float = 0.01) -> Figure:
             due += period_s
             time.sleep(max(0.0, due - time.monotonic()))
         runs.append((time.process_time_ns() - begin) / _TICKS)
-    return Figure(min(runs), statistics.median(runs))
+    return Figure.of(runs)
 
 
 def copying(count: int) -> Figure:
@@ -85,7 +81,7 @@ def copying(count: int) -> Figure:
             begin = time.process_time_ns()
             memory[:] = data
             runs.append((time.process_time_ns() - begin) / count)
-    return Figure(min(runs), statistics.median(runs))
+    return Figure.of(runs)
 
 
 def transfer(size: int) -> Figure:
@@ -104,7 +100,7 @@ def transfer(size: int) -> Figure:
                     filled += connection.recv_into(target[filled:])
                 times.append(time.perf_counter_ns() - begin)
         sender.join()
-    return Figure(min(times), statistics.median(times))
+    return Figure.of(times)
 
 
 def _send(port: int, data: bytes, count: int) -> None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 import asyncio
 import json
 import os
-import statistics
 import subprocess
 import sys
 import threading
@@ -38,13 +37,9 @@ def rows() -> Iterator[Row]:
         for clients, rate in ((1, 1000), (20, 100)):
             alone = [empty_subscription(rate) for _ in range(ROUNDS)]
             ours = [served(clients, rate) for _ in range(ROUNDS)]
-            yield Row(f"{clients} clients, {rate} Hz", figure(ours), {"empty": figure(alone)})
+            yield Row(f"{clients} clients, {rate} Hz", Figure.of(ours), {"empty": Figure.of(alone)})
         joined = [latched(20) for _ in range(ROUNDS)]
-        yield Row(f"20 clients join: all have {KEEPERS} latched messages after", figure(joined))
-
-
-def figure(values: list[float]) -> Figure:
-    return Figure(min(values), statistics.median(values))
+        yield Row(f"20 clients join: all have {KEEPERS} latched messages after", Figure.of(joined))
 
 
 def type_id() -> TypeId:

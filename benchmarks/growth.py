@@ -10,7 +10,6 @@ import contextlib
 import json
 import math
 import os
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -24,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from benchmarks import tf_listener, turtles
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback, printed
 from benchmarks.view_growth import robot, running_view
 
 TITLE = "How cost grows"
@@ -32,7 +31,7 @@ ROOT = Path(__file__).parents[1]
 PICTURE = ROOT / "build" / "growth.svg"
 ROUNDS = 3
 SECONDS = 2.0
-ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "104", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+ENVIRONMENT = on_loopback(104)
 
 
 class Quantity(NamedTuple):
@@ -65,9 +64,7 @@ def rows() -> Iterator[Row]:
 
 def run(name: str, size: int) -> Figure:
     command = [sys.executable, "-m", __name__, name, str(size)]
-    output = subprocess.run(command, env=ENVIRONMENT, stdout=subprocess.PIPE, check=True).stdout
-    costs = json.loads(output.splitlines()[-1])
-    return Figure(min(costs), statistics.median(costs))
+    return Figure.of(printed(command, ENVIRONMENT))
 
 
 def exponent(figures: dict[int, Figure]) -> Figure:

@@ -7,10 +7,8 @@ launch without nodes depends less on the load of the machine.
 from __future__ import annotations
 
 import contextlib
-import os
 import resource
 import signal
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -18,7 +16,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback
 from benchmarks.ros2_command import ROS2
 from turtlewire_ros.executables import argv_for, executable_paths
 
@@ -65,14 +63,9 @@ def rows() -> Iterator[Row]:
         two_nodes, empty = Path(folder, "two_nodes.launch.py"), Path(folder, "empty.launch.py")
         two_nodes.write_text(LAUNCH_FILE)
         empty.write_text(EMPTY_FILE)
-        environment = {
-            **os.environ,
-            "ROS_DOMAIN_ID": "104",
-            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-            "ROS_LOG_DIR": folder,
-            "PYTHONPYCACHEPREFIX": folder,
-            "PYTHONDONTWRITEBYTECODE": "",
-        }
+        environment = on_loopback(
+            104, ROS_LOG_DIR=folder, PYTHONPYCACHEPREFIX=folder, PYTHONDONTWRITEBYTECODE=""
+        )
         launch = [[sys.executable, *ROS2, "launch", str(two_nodes)]]
         by_hand = [argv_for(path) for path in executables()]
         with observer(environment) as watching:
@@ -85,18 +78,14 @@ def rows() -> Iterator[Row]:
             cpu_of([sys.executable, *ROS2, "launch", str(empty)], environment)
             for _ in range(ROUNDS)
         ]
-    ours, floor = (figure(times) for times in zip(*rounds, strict=True))
+    ours, floor = (Figure.of(times) for times in zip(*rounds, strict=True))
     yield Row("until another process sees both nodes", ours, {}, "<= 200 ms", floor)
-    yield Row("CPU of a launch without nodes", figure(tuple(cpu)))
+    yield Row("CPU of a launch without nodes", Figure.of(cpu))
 
 
 def executables() -> list[str]:
     paths = executable_paths("demo_nodes_py") or []
     return [path for path in paths if Path(path).name in NODES]
-
-
-def figure(times: tuple[int, ...]) -> Figure:
-    return Figure(min(times), statistics.median(times))
 
 
 @contextlib.contextmanager

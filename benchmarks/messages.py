@@ -9,7 +9,7 @@ from typing import Any
 
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from benchmarks.clock import per_call, summary
+from benchmarks.clock import per_call
 from benchmarks.figures import Figure, Row
 from turtlewire import msg
 
@@ -102,7 +102,7 @@ def rows() -> Iterator[Row]:
     )
     yield Row(
         "first use of a node's types (16 hashes, 4 encoders)",
-        Figure(*summary([_first_use() for _ in range(10)])),
+        Figure.of([_first_use() for _ in range(10)]),
     )
 
 

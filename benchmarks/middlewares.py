@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import statistics
 import subprocess
 import sys
@@ -12,12 +11,14 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from benchmarks import crowd, tf_listener
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback, printed_by_pair
+from benchmarks.rivals.rclpy_programs import LOSSLESS, make_node
 
 TITLE = "Zenoh (ours) compared with Cyclone"
 ROUNDS = 3
 MIDDLEWARES = {"Zenoh": "rmw_zenoh_cpp", "Cyclone": "rmw_cyclonedds_cpp"}
-ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "103", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+ENVIRONMENT = on_loopback(103)
+PROGRAM = [sys.executable, "-m", __name__]
 PERIOD_S = 0.001
 PINGS, WARM_UP = 1500, 300
 BLOCKS, BLOCK_SIZE = 300, 1_000_000
@@ -61,37 +62,15 @@ def compare(
             runs[name].append(measure({**ENVIRONMENT, "RMW_IMPLEMENTATION": middleware}))
     for what, title in titles.items():
         ours, cyclone = ([run[what] for run in runs[name]] for name in MIDDLEWARES)
-        yield Row(title, figure(ours), {"Cyclone": figure(cyclone)}, budget)
-
-
-def figure(values: list[float]) -> Figure:
-    return Figure(min(values), statistics.median(values))
+        yield Row(title, Figure.of(ours), {"Cyclone": Figure.of(cyclone)}, budget)
 
 
 def round_trip(environment: dict[str, str]) -> dict[str, float]:
-    return pair("answer", "ask", environment)
+    return printed_by_pair(PROGRAM, "answer", "ask", environment)
 
 
 def throughput(environment: dict[str, str]) -> dict[str, float]:
-    return pair("receive", "send", environment)
-
-
-def pair(first: str, second: str, environment: dict[str, str]) -> dict[str, float]:
-    """Return the figures that two processes print."""
-    command = [sys.executable, "-m", __name__]
-    with (
-        subprocess.Popen(
-            [*command, first], env=environment, stdout=subprocess.PIPE, text=True
-        ) as one,
-        subprocess.Popen(
-            [*command, second], env=environment, stdout=subprocess.PIPE, text=True
-        ) as other,
-    ):
-        figures: dict[str, float] = {}
-        for process in (one, other):
-            said, _ = process.communicate(timeout=120)
-            figures.update(json.loads(said))
-    return figures
+    return printed_by_pair(PROGRAM, "receive", "send", environment)
 
 
 def listen(environment: dict[str, str], count: int, rate: int) -> dict[str, float]:
@@ -109,13 +88,6 @@ def listen(environment: dict[str, str], count: int, rate: int) -> dict[str, floa
 def know_each_other(environment: dict[str, str]) -> dict[str, float]:
     seconds, _ = crowd.start(CROWD, float("inf"), environment)
     return {"seconds": seconds * 1e9}
-
-
-def make_node(name: str) -> Any:
-    import rclpy
-
-    rclpy.init(args=[])
-    return rclpy.create_node(name)
 
 
 def finish(done: Any) -> None:
@@ -173,13 +145,6 @@ def ask() -> None:
     rclpy.shutdown()
 
 
-def lossless() -> Any:
-    """Nothing is dropped: a subscription that is slower holds up the publisher."""
-    from rclpy.qos import HistoryPolicy, QoSProfile
-
-    return QoSProfile(history=HistoryPolicy.KEEP_ALL)
-
-
 def receive() -> None:
     """Take blocks, and tell how long each took."""
     import rclpy
@@ -193,7 +158,7 @@ def receive() -> None:
         if len(moments) == BLOCKS:
             finish(done)
 
-    node.create_subscription(UInt8MultiArray, "/blocks", on_block, lossless())
+    node.create_subscription(UInt8MultiArray, "/blocks", on_block, LOSSLESS)
     rclpy.spin_until_future_complete(node, done)
     (begin, cpu_before), (end, cpu_after) = moments[BLOCKS // 10], moments[-1]
     count = len(moments) - BLOCKS // 10 - 1
@@ -214,7 +179,7 @@ def send() -> None:
     from std_msgs.msg import UInt8MultiArray
 
     node = make_node("sender")
-    publisher = node.create_publisher(UInt8MultiArray, "/blocks", lossless())
+    publisher = node.create_publisher(UInt8MultiArray, "/blocks", LOSSLESS)
     node.context.wait_for_graph(lambda: publisher.get_subscription_count() > 0, None)
     block = UInt8MultiArray(data=bytes(BLOCK_SIZE))
     cpu = time.process_time()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import statistics
 import time
 from array import array
 from collections.abc import Callable, Iterator
@@ -38,7 +37,7 @@ def figure(work: Callable[[], Any]) -> Figure:
         start = time.perf_counter_ns()
         work()
         runs.append(time.perf_counter_ns() - start)
-    return Figure(min(runs), statistics.median(runs))
+    return Figure.of(runs)
 
 
 def make_cloud(names: str, step: int, *, bigendian: bool) -> Any:

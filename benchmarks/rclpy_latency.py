@@ -6,15 +6,14 @@ from __future__ import annotations
 
 import contextlib
 import json
-import os
-import statistics
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
 from typing import Any
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback
+from benchmarks.rivals.rclpy_programs import make_node
 
 TITLE = "rclpy: publish to callback, two processes, std_msgs/String at 1 kHz"
 TOPIC, TYPE_NAME = "/latency", "std_msgs/msg/String"
@@ -33,7 +32,7 @@ def rows() -> Iterator[Row]:
         "cpu": "253 us (bare rclpy subscription)",
     }
     for what, budget in budgets.items():
-        ours, wire = (_figure([run[what] for run in runs[way]]) for way in ("rclpy", "wire"))
+        ours, wire = (Figure.of([run[what] for run in runs[way]]) for way in ("rclpy", "wire"))
         yield Row(
             {"cpu": "CPU of the receiver for each message"}.get(what, what),
             ours,
@@ -42,22 +41,14 @@ def rows() -> Iterator[Row]:
         )
 
 
-def _figure(values: list[float]) -> Figure:
-    return Figure(min(values), statistics.median(values))
-
-
 def measure(way: str) -> dict[str, float]:
-    environment = {
-        **os.environ,
-        "ROS_DOMAIN_ID": "102",
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    }
+    environment = on_loopback(102)
     command = [sys.executable, "-m", __name__]
     with (
         subprocess.Popen(
-            [*command, f"{way}-receive"], env=environment, stdout=subprocess.PIPE, text=True
+            [*command, f"{way}_receive"], env=environment, stdout=subprocess.PIPE, text=True
         ) as receiver,
-        subprocess.Popen([*command, f"{way}-send"], env=environment) as sender,
+        subprocess.Popen([*command, f"{way}_send"], env=environment) as sender,
     ):
         output, _ = receiver.communicate(timeout=60)
         sender.terminate()
@@ -88,18 +79,11 @@ class Record:
         )
 
 
-def rclpy_node(name: str) -> Any:
-    import rclpy
-
-    rclpy.init(args=[])
-    return rclpy.create_node(name)
-
-
 def rclpy_send() -> None:
     import rclpy
     from std_msgs.msg import String
 
-    node = rclpy_node("sender")
+    node = make_node("sender")
     publisher = node.create_publisher(String, TOPIC, 10)
     node.create_timer(PERIOD_S, lambda: publisher.publish(String(data=str(time.perf_counter_ns()))))
     with contextlib.suppress(
@@ -112,7 +96,7 @@ def rclpy_receive() -> None:
     import rclpy
     from std_msgs.msg import String
 
-    node, record, done = rclpy_node("receiver"), Record(), rclpy.task.Future()
+    node, record, done = make_node("receiver"), Record(), rclpy.task.Future()
     node.create_subscription(
         String, TOPIC, lambda message: record.add(message.data) and done.set_result(None), 10
     )
@@ -159,9 +143,4 @@ def wire_receive() -> None:
 
 
 if __name__ == "__main__":
-    {
-        "rclpy-send": rclpy_send,
-        "rclpy-receive": rclpy_receive,
-        "wire-send": wire_send,
-        "wire-receive": wire_receive,
-    }[sys.argv[1]]()
+    globals()[sys.argv[1]]()

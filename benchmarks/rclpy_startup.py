@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
-import statistics
-import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback, printed
 
 TITLE = "rclpy: start-up, and an idle node"
 ROUNDS = 9
@@ -21,15 +18,10 @@ IDLE_S = 5.0
 
 def rows() -> Iterator[Row]:
     with tempfile.TemporaryDirectory() as cache:
-        environment = {
-            **os.environ,
-            "ROS_DOMAIN_ID": "103",
-            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-            "PYTHONPYCACHEPREFIX": cache,
-            "PYTHONDONTWRITEBYTECODE": "",
-        }
-        start(environment)  # fills the cache of compiled modules
-        runs = [start(environment) for _ in range(ROUNDS)]
+        environment = on_loopback(103, PYTHONPYCACHEPREFIX=cache, PYTHONDONTWRITEBYTECODE="")
+        started = [sys.executable, "-c", START]
+        printed(started, environment)  # fills the cache of compiled modules
+        runs = [printed(started, environment) for _ in range(ROUNDS)]
         budgets = {
             "import rclpy": "<= 50 ms (rclpy: 65 ms, the interpreter's 11 included)",
             "import, init, node": "<= 100 ms (rclpy: 153 ms, likewise)",
@@ -37,19 +29,11 @@ def rows() -> Iterator[Row]:
             "… and a String publisher and subscription": "(rclpy: 160 ms, likewise)",
         }
         for number, (what, budget) in enumerate(budgets.items()):
-            values = [run[number] * 1e9 for run in runs]
-            yield Row(what, Figure(min(values), statistics.median(values)), {}, budget)
-        idle = subprocess.run(
-            [sys.executable, "-m", __name__], env=environment, stdout=subprocess.PIPE, check=True
-        )
-        switches, cpu = json.loads(idle.stdout)
-        yield Row(
-            "idle node: context switches each second, all threads",
-            Figure(switches, switches, "/s"),
-            {},
-            "< 5 /s",
-        )
-        yield Row("idle node: CPU", Figure(cpu, cpu, "%"))
+            yield Row(what, Figure.of([run[number] for run in runs], factor=1e9), {}, budget)
+        switches, cpu = printed([sys.executable, "-m", __name__], environment)
+        what = "idle node: context switches each second, all threads"
+        yield Row(what, Figure.of([switches], "/s"), {}, "< 5 /s")
+        yield Row("idle node: CPU", Figure.of([cpu], "%"))
 
 
 #: Prints the seconds since the interpreter was ready: after the import, after the node (wall and
@@ -71,13 +55,6 @@ moments.append(time.perf_counter() - begin)
 print(moments)
 rclpy.shutdown()
 """
-
-
-def start(environment: dict[str, str]) -> list[float]:
-    done = subprocess.run(
-        [sys.executable, "-c", START], env=environment, stdout=subprocess.PIPE, check=True
-    )
-    return json.loads(done.stdout)
 
 
 def measure_idle() -> None:

@@ -8,23 +8,19 @@ strings. `benchmarks.real` compares larger messages, latencies and services dire
 from __future__ import annotations
 
 import json
-import os
 import statistics
-import subprocess
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback, printed_by_pair
+from benchmarks.rivals.rclpy_programs import make_node, spin_until_stdin_closes
 
 TITLE = "rclpy: throughput between two processes"
 ROUNDS = 5
 GOALS, GOALS_AT_ONCE = 300, 8
 STRINGS = 100_000
-
-
 BUDGETS = {
     "goals": ">= 1.58x commit 16a1ae2 (1.2x rclpy)",
     "strings": ">= 1.41x commit 16a1ae2 (1.2x rclpy)",
@@ -34,69 +30,19 @@ BUDGETS = {
 def rows() -> Iterator[Row]:
     for what, budget in BUDGETS.items():
         runs = [measure(what) for _ in range(ROUNDS)]
-        rates = _figure([run["rate"] for run in runs], "/s", max)
-        yield Row(f"{what} each second (best / median)", rates, {}, budget)
+        rates = [run["rate"] for run in runs]
+        best = Figure(max(rates), statistics.median(rates), "/s")
+        yield Row(f"{what} each second (best / median)", best, {}, budget)
         yield Row(
             f"{what}: CPU of the {'server' if what == 'goals' else 'sender'} for each",
-            _figure([run["cpu"] for run in runs]),
+            Figure.of([run["cpu"] for run in runs]),
         )
-
-
-def _figure(
-    values: list[float], unit: str = "ns", best: Callable[[list[float]], float] = min
-) -> Figure:
-    return Figure(best(values), statistics.median(values), unit)
 
 
 def measure(what: str) -> dict[str, float]:
     """Let one process serve and the other one ask; figures of both."""
-    environment = {
-        **os.environ,
-        "ROS_DOMAIN_ID": "104",
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    }
-    command = [sys.executable, "-m", __name__, what]
-    with (
-        subprocess.Popen(
-            [*command, "serve"],
-            env=environment,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-        ) as server,
-        subprocess.Popen(
-            [*command, "ask"], env=environment, stdout=subprocess.PIPE, text=True
-        ) as asker,
-    ):
-        try:
-            asked, _ = asker.communicate(timeout=120)
-            served, _ = server.communicate("", timeout=60)
-        finally:  # of one that waits for the other, which failed
-            asker.kill()
-            server.kill()
-    return {**json.loads(asked), **json.loads(served)}
-
-
-def spinning(node: Any) -> None:
-    """Spin a node until the other process has enough, which closes this one's stdin."""
-    import rclpy
-
-    def wait_for_the_end() -> None:
-        sys.stdin.read()
-        rclpy.try_shutdown()
-
-    threading.Thread(target=wait_for_the_end, daemon=True).start()
-    try:
-        rclpy.spin(node)
-    except rclpy.executors.ExternalShutdownException:
-        return
-
-
-def make_node(name: str) -> Any:
-    import rclpy
-
-    rclpy.init(args=[])
-    return rclpy.create_node(name)
+    program = [sys.executable, "-m", __name__, what]
+    return printed_by_pair(program, "serve", "ask", on_loopback(104))
 
 
 def goals_serve() -> None:
@@ -113,7 +59,7 @@ def goals_serve() -> None:
         return Fibonacci.Result(sequence=[0, 1, 1, 2])
 
     server = ActionServer(node, Fibonacci, "fibonacci", execute)
-    spinning(node)
+    spin_until_stdin_closes(node)
     cpu = (time.process_time() - begin[0]) / (len(begin) - 1)
     print(json.dumps({"cpu": cpu * 1e9}))
     server.destroy()
@@ -165,7 +111,7 @@ def strings_serve() -> None:
     node = make_node("receiver")
     moments: list[float] = []
     node.create_subscription(String, "flood", lambda _: moments.append(time.perf_counter()), 10)
-    spinning(node)
+    spin_until_stdin_closes(node)
     print(json.dumps({"received": len(moments) / (moments[-1] - moments[0])}))
 
 

@@ -6,16 +6,13 @@ sizes its memory by the machine's. All take turns in one run.
 
 from __future__ import annotations
 
-import json
 import os
-import statistics
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 from benchmarks import floors
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, printed, printed_by_pair
 from benchmarks.rivals import rclpy_programs
 
 TITLE = "real: rclpy of turtlewire, Jazzy and Kilted, and the machine's floor"
@@ -58,10 +55,7 @@ def rows() -> Iterator[Row]:
                 measured[name].setdefault(figure, []).append(value)
     floor = _floors()
     for figure, what in WHAT.items():
-        figures = {
-            name: Figure(min(values[figure]), statistics.median(values[figure]))
-            for name, values in measured.items()
-        }
+        figures = {name: Figure.of(values[figure]) for name, values in measured.items()}
         yield Row(what, figures.pop("ours"), figures, floor=floor.get(figure))
 
 
@@ -95,35 +89,10 @@ def measure(python: list[str]) -> dict[str, float]:
     program = [*python, rclpy_programs.__file__]
     figures: dict[str, float] = {}
     for name in ALONE:
-        done = subprocess.run(
-            [*program, name], env=ENVIRONMENT, check=True, capture_output=True, text=True
-        )
         figures |= {
             {"cpu": "timer_cpu"}.get(figure, figure): value
-            for figure, value in json.loads(done.stdout).items()
+            for figure, value in printed([*program, name], ENVIRONMENT).items()
         }
     for name in SERVED:
-        figures |= _served(program, name)
+        figures |= printed_by_pair(program, f"{name}_serve", f"{name}_ask", ENVIRONMENT)
     return figures
-
-
-def _served(program: list[str], name: str) -> dict[str, float]:
-    with (
-        subprocess.Popen(
-            [*program, f"{name}_serve"],
-            env=ENVIRONMENT,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-        ) as server,
-        subprocess.Popen(
-            [*program, f"{name}_ask"], env=ENVIRONMENT, stdout=subprocess.PIPE, text=True
-        ) as asker,
-    ):
-        try:
-            asked, _ = asker.communicate(timeout=120)
-            served, _ = server.communicate("", timeout=60)
-        finally:  # of one that waits for the other, which failed
-            asker.kill()
-            server.kill()
-    return {**json.loads(asked), **json.loads(served)}

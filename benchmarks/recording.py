@@ -1,13 +1,10 @@
 """Records 200 MB a minute, and plays at three rates: what is lost, and how late messages come.
 
     python -m benchmarks.recording load --minutes 10
-    python -m benchmarks.recording timing
-    python -m benchmarks.recording writing
 
-`load` publishes images of 100 kB and small messages with numbers, records them with ``ros2 bag
-record``, and compares the bag with what was sent. `timing` plays a bag of 100 messages a second and
-measures when each message is published; `scripts/bench recording` prints that as a table. `writing`
-writes a million messages.
+publishes images of 100 kB and small messages with numbers, records them with ``ros2 bag record``,
+and compares the bag with what was sent. `scripts/bench recording` plays a bag of 100 messages a
+second and measures when each message is published.
 """
 
 from __future__ import annotations
@@ -145,16 +142,6 @@ def lateness() -> Iterator[tuple[float, list[float]]]:
             yield rate, sorted(errors)
 
 
-def timing() -> None:
-    """Print how late messages are published."""
-    for rate, errors in lateness():
-        print(
-            f"{rate:g}x: {len(errors)} messages, late by [ms] median "
-            f"{statistics.median(errors):.3f}, 99 % {errors[int(len(errors) * 0.99)]:.3f}, "
-            f"most {errors[-1]:.3f}"
-        )
-
-
 def rows() -> Iterator[Row]:
     """Measure the delay of published messages at three rates."""
     for rate, errors in lateness():
@@ -162,32 +149,12 @@ def rows() -> Iterator[Row]:
         yield Row(f"{rate:g}x, {len(errors)} messages", Figure(middle, late, "ms"))
 
 
-def writing() -> None:
-    """Write a million messages of 100 bytes, and print the CPU time of the best of five."""
-    data = bytes(range(100))
-    for compression in ("", "zstd"):
-        best = float("inf")
-        for _ in range(5):
-            with tempfile.TemporaryDirectory() as folder:
-                begin = time.process_time()
-                with BagWriter(f"{folder}/bag", compression=compression) as writer:
-                    writer.add_topic("/tf", "tf2_msgs/msg/TFMessage")
-                    for i in range(1_000_000):
-                        writer.write("/tf", data, START + i, START + i)
-                best = min(best, time.process_time() - begin)
-        print(f"1,000,000 messages, {compression or 'not compressed'}: {best:.2f} s CPU")
-
-
 def main() -> int:
-    """Run one of them."""
+    """Record; the status is 1 if messages are missing."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=("load", "timing", "writing"))
+    parser.add_argument("what", choices=("load",))
     parser.add_argument("--minutes", type=float, default=10.0)
-    args = parser.parse_args()
-    if args.what == "load":
-        return int(load(args.minutes) != 0)
-    (timing if args.what == "timing" else writing)()
-    return 0
+    return int(load(parser.parse_args().minutes) != 0)
 
 
 if __name__ == "__main__":

@@ -8,10 +8,8 @@ same sizes, with two system calls each: the share of the operating system in the
 
 from __future__ import annotations
 
-import json
 import os
 import socket
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -19,7 +17,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback, printed
 from turtlewire.urdf import Robot
 from turtlewire.urdf.joint_messages import JointMessages
 
@@ -31,10 +29,8 @@ NAMES = [f"joint_{number}" for number in range(JOINTS)]
 def rows() -> Iterator[Row]:
     native, plain = convert("native"), convert("python")
     yield Row("bytes to bytes", native, {"plain-Python twin": plain}, "<= 15 us")
-    values = [measure() for _ in range(ROUNDS)]
-    figure = Figure(min(values), statistics.median(values))
-    answers = [answer_datagrams() for _ in range(ROUNDS)]
-    rival = {"bare datagrams": Figure(min(answers), statistics.median(answers))}
+    figure = Figure.of([measure() for _ in range(ROUNDS)])
+    rival = {"bare datagrams": Figure.of([answer_datagrams() for _ in range(ROUNDS)])}
     yield Row("node, at 500 Hz, wire included", figure, rival, "<= 15 us")
 
 
@@ -72,11 +68,7 @@ def convert(core: str) -> Figure:
         "one(); print(json.dumps([one() for _ in range(15)]))"
     )
     environment = {**os.environ, "TURTLEWIRE_CORE": core}
-    done = subprocess.run(
-        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
-    )
-    values = json.loads(done.stdout)
-    return Figure(min(values), statistics.median(values))
+    return Figure.of(printed([sys.executable, "-c", code], environment))
 
 
 def answer_datagrams() -> float:
@@ -109,11 +101,7 @@ def answer_datagrams() -> float:
 
 def measure() -> float:
     """CPU nanoseconds of the node's process for each joint state; all are published."""
-    environment = {
-        **os.environ,
-        "ROS_DOMAIN_ID": "103",
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    }
+    environment = on_loopback(103)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "robot.urdf"
         path.write_text(urdf())
@@ -123,11 +111,9 @@ def measure() -> float:
             [sys.executable, "-c", module, str(path), *options], env=environment
         ) as node:
             command = [sys.executable, "-m", __name__, str(node.pid)]
-            done = subprocess.run(
-                command, env=environment, stdout=subprocess.PIPE, text=True, check=True, timeout=60
-            )
+            cost = printed(command, environment, 60)
             node.terminate()
-    return float(done.stdout)
+    return cost
 
 
 def send(pid: int) -> None:

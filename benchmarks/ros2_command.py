@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import signal
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -13,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback
 
 TITLE = "ros2: wall time of a command"
 ROUNDS = 15
@@ -41,15 +39,8 @@ rclpy.shutdown()
 
 def rows() -> Iterator[Row]:
     with tempfile.TemporaryDirectory() as cache:
-        environment = {
-            **os.environ,
-            "ROS_DOMAIN_ID": "104",
-            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-            "PYTHONPYCACHEPREFIX": cache,
-        }
-        environment.pop(
-            "PYTHONDONTWRITEBYTECODE", None
-        )  # else every command compiles its modules again
+        # Else every command would compile its modules again.
+        environment = on_loopback(104, PYTHONPYCACHEPREFIX=cache, PYTHONDONTWRITEBYTECODE="")
         yield Row("the interpreter alone", measured(environment, ["-c", "print('ready')"], "ready"))
         yield Row("ros2 --help", measured(environment, [*ROS2, "--help"], "Commands:"))
         yield Row("ros2 pkg list", measured(environment, [*ROS2, "pkg", "list"], "turtlesim"))
@@ -69,7 +60,7 @@ def measured(environment: dict[str, str], words: list[str], expected: str) -> Fi
     The first run fills the cache of compiled modules.
     """
     spent = [run(environment, words, expected) for _ in range(ROUNDS + 1)][1:]
-    return Figure(min(spent), statistics.median(spent))
+    return Figure.of(spent)
 
 
 def demo_started(environment: dict[str, str]) -> Figure:
@@ -93,7 +84,7 @@ def demo_started(environment: dict[str, str]) -> Figure:
                 if "Spawning turtle [turtle2]" in line:
                     spent.append(time.perf_counter_ns() - begin)
                     launch.send_signal(signal.SIGINT)
-    return Figure(min(spent[1:]), statistics.median(spent[1:]))
+    return Figure.of(spent[1:])
 
 
 def run(environment: dict[str, str], words: list[str], expected: str) -> int:

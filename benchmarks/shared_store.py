@@ -8,19 +8,18 @@ from __future__ import annotations
 
 import contextlib
 import os
-import statistics
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
 
 from benchmarks import tf_listener
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback
 from benchmarks.growth import cpu_each_second
 
 TITLE = "Ten processes that hear 100 messages of 20 transforms a second: CPU of all in a second"
 PROCESSES = 10
-ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "105", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+ENVIRONMENT = on_loopback(105)
 WAYS = {
     "listener": "each listens and stores",
     "receiver": "one stores, nine receive only: the graph stays as in ROS 2",
@@ -43,8 +42,7 @@ def measured(way: str) -> Figure:
         for each in processes:
             assert each.stdout is not None
             assert each.stdout.readline() == b"ready\n"
-        costs = cpu_each_second([each.pid for each in processes])
-    return Figure(min(costs), statistics.median(costs))
+        return Figure.of(cpu_each_second([each.pid for each in processes]))
 
 
 def _running(stack: contextlib.ExitStack, *arguments: str) -> subprocess.Popen[bytes]:

@@ -10,15 +10,13 @@ message of it.
 from __future__ import annotations
 
 import json
-import os
-import statistics
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
 from typing import Any
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback, printed
 
 TITLE = "TransformListener at 1 kHz: CPU per message, waiting lookups"
 RATE_HZ = 1000
@@ -32,11 +30,7 @@ WAYS = {
 
 
 def rows() -> Iterator[Row]:
-    environment = {
-        **os.environ,
-        "ROS_DOMAIN_ID": "101",
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    }
+    environment = on_loopback(101)
     for count, budget in (
         (1, "<= 48 us (1/6 of rclpy's 289 us)"),
         (20, "<= 53 us (1/12 of rclpy's 645 us)"),
@@ -46,7 +40,7 @@ def rows() -> Iterator[Row]:
             env=environment,
         ) as publisher:
             try:
-                figures = {way: measure(way, environment) for way in WAYS}
+                figures = {way: Figure.of(run(way, environment)) for way in WAYS}
                 p50, p99 = run("wait", environment)
             finally:
                 publisher.terminate()
@@ -61,19 +55,8 @@ def rows() -> Iterator[Row]:
         )
 
 
-def measure(way: str, environment: dict[str, str]) -> Figure:
-    runs = run(way, environment)
-    return Figure(min(runs), statistics.median(runs))
-
-
 def run(way: str, environment: dict[str, str], rate_hz: int = RATE_HZ) -> list[float]:
-    done = subprocess.run(
-        [sys.executable, "-m", __name__, way, str(rate_hz)],
-        env=environment,
-        stdout=subprocess.PIPE,
-        check=True,
-    )
-    return json.loads(done.stdout)
+    return printed([sys.executable, "-m", __name__, way, str(rate_hz)], environment)
 
 
 def publish(count: int, rate_hz: int) -> None:

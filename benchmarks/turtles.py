@@ -8,15 +8,13 @@ from __future__ import annotations
 
 import json
 import os
-import statistics
-import subprocess
 import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback, printed
 
 TITLE = (
     "Turtles: a swarm that follows one another through TF, CPU for each turtle and tick of 16 ms"
@@ -29,42 +27,27 @@ PATH = [ROOT / "examples" / "learning_tf2_py", ROOT / "examples" / "graded_exerc
 
 
 def rows() -> Iterator[Row]:
-    environment = {
-        **os.environ,
-        "ROS_DOMAIN_ID": "101",
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    }
+    environment = on_loopback(101)
     environment["PYTHONPATH"] = os.pathsep.join(
         filter(None, (*map(str, PATH), environment.get("PYTHONPATH")))
     )
     for count in COUNTS:
         measured = run(str(count), environment)
-        yield Row(f"{count} turtles, the simulator alone", figure(measured["simulator"]))
+        simulator, process, rate, spawning = (
+            Figure.of(measured[what], "Hz" if what == "rate" else "ns")
+            for what in ("simulator", "process", "rate", "spawning")
+        )
+        yield Row(f"{count} turtles, the simulator alone", simulator)
         budget = "<= 16 us (one core)" if count == max(COUNTS) else ""
-        yield Row(
-            f"{count} turtles, all of the process", figure(measured["process"]), budget=budget
-        )
-        yield Row(
-            f"{count} turtles, ticks per second", figure(measured["rate"], "Hz"), budget="62.5 Hz"
-        )
-        yield Row(
-            f"{count} turtles, spawned one by one through the service", figure(measured["spawning"])
-        )
-    yield Row(
-        "a simulated second of a chase in lock-step",
-        figure(run("chase", environment)["second"]),
-        budget="<= 50 ms (20x)",
-    )
+        yield Row(f"{count} turtles, all of the process", process, budget=budget)
+        yield Row(f"{count} turtles, ticks per second", rate, budget="62.5 Hz")
+        yield Row(f"{count} turtles, spawned one by one through the service", spawning)
+    chase = Figure.of(run("chase", environment)["second"])
+    yield Row("a simulated second of a chase in lock-step", chase, budget="<= 50 ms (20x)")
 
 
 def run(what: str, environment: dict[str, str]) -> dict[str, list[float]]:
-    command = [sys.executable, "-m", __name__, what]
-    output = subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True).stdout
-    return json.loads(output.splitlines()[-1])
-
-
-def figure(runs: list[float], unit: str = "ns") -> Figure:
-    return Figure(min(runs), statistics.median(runs), unit)
+    return printed([sys.executable, "-m", __name__, what], environment)
 
 
 def measure(count: int) -> dict[str, list[float]]:
@@ -148,10 +131,7 @@ def spin(executor: Any, seconds: float) -> None:
 
 
 if __name__ == "__main__":
-    print(
-        json.dumps(measure_chase() if sys.argv[1] == "chase" else measure(int(sys.argv[1]))),
-        flush=True,
-    )
-    os._exit(
-        0
-    )  # a thousand turtles take seconds to leave one by one, which is not what is measured
+    costs = measure_chase() if sys.argv[1] == "chase" else measure(int(sys.argv[1]))
+    print(json.dumps(costs), flush=True)
+    # A thousand turtles take seconds to leave one by one, which is not what is measured.
+    os._exit(0)

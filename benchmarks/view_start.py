@@ -7,19 +7,15 @@ page has drawn frames. The rival is a Python that imports numpy and ends.
 
 from __future__ import annotations
 
-import contextlib
-import os
 import shutil
-import statistics
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from benchmarks.figures import Figure, Row
-from benchmarks.view_growth import robot
+from benchmarks.view_growth import robot, running_view
 from benchmarks.view_page import FLAGS
 
 TITLE = "3D view: from the command to the first picture"
@@ -51,13 +47,9 @@ def rows() -> Iterator[Row]:
                 times.append(value)
             page.close()
         browser.close()
-    rival = {"python, numpy": figure(python)}
-    yield Row("until the address is told", figure(told), rival)
-    yield Row("until frames are drawn", figure(drawn), rival, "<= 1 s")
-
-
-def figure(seconds: list[float]) -> Figure:
-    return Figure(1e9 * min(seconds), 1e9 * statistics.median(seconds))
+    rival = {"python, numpy": Figure.of(python, factor=1e9)}
+    yield Row("until the address is told", Figure.of(told, factor=1e9), rival)
+    yield Row("until frames are drawn", Figure.of(drawn, factor=1e9), rival, "<= 1 s")
 
 
 def time_of_python() -> float:
@@ -68,16 +60,8 @@ def time_of_python() -> float:
 
 def time_of_view(page: Any) -> tuple[float, float]:
     """Seconds until the address is told, and until frames are drawn."""
-    command = [str(Path(sys.executable).with_name("turtlewire")), "view", "--port", "0"]
-    environment = {**os.environ, "TURTLEWIRE_BROWSER": "0"}
     begin = time.time()
-    with contextlib.ExitStack() as stack:
-        view = stack.enter_context(
-            subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
-        )
-        stack.callback(view.terminate)
-        assert view.stdout is not None
-        url = next(word for word in view.stdout.readline().split() if word.startswith("http"))
+    with running_view() as (url, _):
         told = time.time() - begin
         page.goto(url, wait_until="commit")
         return told, page.evaluate(DRAWN) / 1000 - begin

@@ -7,25 +7,18 @@ runs with a second process that receives; reliable, with all history, so nothing
 from __future__ import annotations
 
 import json
-import os
 import statistics
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from benchmarks.figures import Figure, Row
+from benchmarks.figures import Figure, Row, on_loopback, printed, printed_by_pair
 from benchmarks.rivals import rclpy_programs
 
 TITLE = "Zenoh: publishing, shared memory, the graph"
 ROUNDS = 5
-ENVIRONMENT = {
-    **os.environ,
-    "ROS_DOMAIN_ID": "103",
-    "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    "RMW_IMPLEMENTATION": "rmw_zenoh_cpp",
-}
+ENVIRONMENT = on_loopback(103, RMW_IMPLEMENTATION="rmw_zenoh_cpp")
 SHARED_MEMORY = {
     **ENVIRONMENT,
     "ZENOH_CONFIG_OVERRIDE": "transport/shared_memory/enabled=true",
@@ -49,10 +42,10 @@ def rows() -> Iterator[Row]:
     own = [sys.executable, "-m", __name__]
     floors, strings, images, queries = [], [], [], []
     for _ in range(ROUNDS):
-        floors.append(pair(own, "floor_receive", "floor_send", ENVIRONMENT))
-        strings.append(pair(own, "receive", "send", ENVIRONMENT))
-        images.append(pair(IMAGES, "images_serve", "images_ask", SHARED_MEMORY))
-        queries.append(run([*own, "graph"], ENVIRONMENT))
+        floors.append(printed_by_pair(own, "floor_receive", "floor_send", ENVIRONMENT))
+        strings.append(printed_by_pair(own, "receive", "send", ENVIRONMENT))
+        images.append(printed_by_pair(IMAGES, "images_serve", "images_ask", SHARED_MEMORY))
+        queries.append(printed([*own, "graph"], ENVIRONMENT))
     for name, what, budget in (
         ("seconds", "a String, nothing lost: time for each", "<= 16.7 µs (60,000 a second)"),
         ("cpu", "the same, CPU of the publisher", "<= 12 µs"),
@@ -66,25 +59,7 @@ def rows() -> Iterator[Row]:
 
 
 def figure(runs: list[dict[str, float]], name: str) -> Figure:
-    values = [run[name] for run in runs]
-    return Figure(min(values), statistics.median(values))
-
-
-def run(command: list[str], environment: dict[str, str]) -> dict[str, float]:
-    done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True, timeout=60)
-    return json.loads(done.stdout)
-
-
-def pair(
-    program: list[str], receiver: str, sender: str, environment: dict[str, str]
-) -> dict[str, float]:
-    """Return the figures of both; the receiver ends with its input."""
-    with subprocess.Popen(
-        [*program, receiver], env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE
-    ) as receiving:
-        sent = run([*program, sender], environment)
-        received, _ = receiving.communicate(timeout=60)
-    return {**json.loads(received or "{}"), **sent}
+    return Figure.of([run[name] for run in runs])
 
 
 def measured(publish: Callable[[], object]) -> None:

@@ -7,19 +7,11 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from clock import report, summary
-from world import RECENT, chain, random_stamps
-
-import turtlewire
+from turtlewire_buffer import filled
+from world import RECENT, random_stamps
 
 RUNS = 200  # of about 2 ms each: on a busy machine some of them are undisturbed
 BATCH = 1000
-
-
-def filled():
-    buffer = turtlewire.Buffer()
-    for parent, child, stamp, p in chain():
-        buffer.set_transform(parent, child, stamp, p[:3], p[3:])
-    return buffer
 
 
 # Each returns what a thread does. It has its own objects, and takes the method from the buffer only
