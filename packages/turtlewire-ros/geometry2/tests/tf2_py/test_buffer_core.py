@@ -247,7 +247,7 @@ def test_the_hint_of_a_buffer_that_refused_all() -> None:
     assert caught.value.hint.endswith(" buffer.engine.problems() lists them.")
 
 
-def test_what_a_message_lookup_refuses() -> None:
+def test_a_message_lookup_refuses_other_classes_and_buffers() -> None:
     if messages.CORE != "native":
         pytest.skip(COMPILED_CORE)
     import turtlewire
@@ -285,7 +285,7 @@ def test_all_answers_equal(core: str, file: str) -> None:
     if core == "native":
         pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
     distro, answers, texts = FILES[file]
-    command = [sys.executable, str(GOLDEN / "check.py"), str(GOLDEN / file), "--allow-subclass"]
+    command = [sys.executable, str(GOLDEN / "check.py"), str(GOLDEN / file)]
     run = subprocess.run(
         command,
         env={**os.environ, "TURTLEWIRE_CORE": core, "ROS_DISTRO": distro},
