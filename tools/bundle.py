@@ -52,15 +52,18 @@ def make(output: Path, pythons: list[str], ready: Path | None) -> None:
     """Make the folder and the zip; an older bundle there is replaced.
 
     Raises:
-        BundleError: A wheel cannot be built or fetched.
+        BundleError: There is no such Python, or a wheel cannot be built or fetched.
     """
+    if ready is not None and not list(ready.glob("turtlewire_class-*.whl")):
+        raise BundleError(f"{ready} holds no wheel of turtlewire-class")
+    for python in pythons:
+        if shutil.which(python) is None:
+            raise BundleError(f"there is no program {python}")
     bundle = output / NAME
     shutil.rmtree(bundle, ignore_errors=True)
     wheels = bundle / "wheels"
     wheels.mkdir(parents=True)
     if ready is not None:
-        if not list(ready.glob("turtlewire_class-*.whl")):
-            raise BundleError(f"{ready} holds no wheel of turtlewire-class")
         for wheel in ready.glob("*.whl"):
             shutil.copy(wheel, wheels)
     else:

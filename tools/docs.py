@@ -23,7 +23,7 @@ from urllib.parse import unquote, urlsplit
 
 import early_options
 from docs_releases import LIST, add_releases
-from lesson import BuildError, serve
+from lesson import BuildError, is_replaceable, serve
 
 from turtlewire.program import program
 
@@ -173,7 +173,7 @@ def build(output: Path, language: str = "en", base: str = "/") -> None:
         BuildError: Sphinx warns, a link leads nowhere, a page loads something from elsewhere, or
             the folder holds something else.
     """
-    if output.exists() and any(output.iterdir()) and not (output / "objects.inv").exists():
+    if not is_replaceable(output, "objects.inv"):
         raise BuildError(f"{output} is not a site that this script built, so it is not replaced")
     if language != "en" and not (SOURCE / "locale" / language).is_dir():
         raise BuildError(f"there is no translation in docs/sphinx/locale/{language}")

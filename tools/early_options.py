@@ -114,11 +114,20 @@ def _add_output(parser: argparse.ArgumentParser, name: str) -> None:
         help=f"where to build it; an older one there is replaced (default: build/{name})",
     )
     parser.add_argument("--serve", action="store_true", help="show it on this machine")
-    parser.add_argument("--port", type=int, default=8000, help="of --serve (default: 8000)")
+    parser.add_argument("--port", type=_port, default=8000, help="of --serve (default: 8000)")
+
+
+def _port(text: str) -> int:
+    if not (text.isdecimal() and int(text) < 65536):
+        raise argparse.ArgumentTypeError(f"{text} is not a port; give a number from 0 to 65535")
+    return int(text)
 
 
 def _seconds(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
     if not 0.0 < value < math.inf:
         raise argparse.ArgumentTypeError(
             f"{text} is not a time to wait for; give a positive number"

@@ -131,7 +131,7 @@ def build(output: Path) -> int:
     Raises:
         BuildError: Something is missing, or the folder holds something else.
     """
-    if output.exists() and any(output.iterdir()) and not (output / "manifest.json").exists():
+    if not is_replaceable(output, "manifest.json"):
         raise BuildError(f"{output} holds no built lesson: choose an empty folder")
     with tempfile.TemporaryDirectory(dir=_made(ROOT / "build")) as folder:
         page = Path(folder) / "lesson"
@@ -147,6 +147,13 @@ def build(output: Path) -> int:
         _made(output.parent)
         page.rename(output)
     return weight
+
+
+def is_replaceable(output: Path, mark: str) -> bool:
+    """Whether nothing is lost where a folder is built: an older one there has the file `mark`."""
+    if not output.is_dir():
+        return not output.exists()
+    return (output / mark).exists() or not any(output.iterdir())
 
 
 def _made(folder: Path) -> Path:

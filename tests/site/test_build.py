@@ -7,18 +7,16 @@ import struct
 import subprocess
 import sys
 
+import docs
+import lesson
 import pytest
 from tests.places import ROOT, SITE, TOOLS
 
 GOOD = '<h1 id="top">A</h1><a href="sub/b.html#there">b</a><a href="https://example.org">out</a>'
 
 
-@pytest.fixture(scope="module")
-def faults_of():
-    sys.path.insert(0, str(TOOLS))
-    module = importlib.import_module("docs")
-    yield lambda folder: list(module.faults_of(folder, apart={"lesson"}))
-    sys.path.remove(str(TOOLS))
+def faults_of(folder):
+    return list(docs.faults_of(folder, apart={"lesson"}))
 
 
 @pytest.fixture
@@ -32,7 +30,7 @@ def folder(tmp_path):
     return tmp_path
 
 
-def test_good_pages_have_no_faults(faults_of, folder):
+def test_good_pages_have_no_faults(folder):
     assert faults_of(folder) == []
 
 
@@ -57,20 +55,34 @@ def test_good_pages_have_no_faults(faults_of, folder):
         ),
     ],
 )
-def test_faults_are_found(faults_of, folder, added, fault):
+def test_faults_are_found(folder, added, fault):
     (folder / "a.html").write_text(GOOD + added)
     assert faults_of(folder) == [fault]
 
 
-def test_style_sheets_load_nothing_from_elsewhere(faults_of, folder):
+def test_style_sheets_load_nothing_from_elsewhere(folder):
     (folder / "s.css").write_text("@import 'https://fonts.example/f.css';")
     assert faults_of(folder) == ["s.css: loads https://fonts.example/f.css from elsewhere"]
 
 
-def test_the_base_is_where_links_start(faults_of, folder):
+def test_the_base_is_where_links_start(folder):
     text = '<base href="/some/where/"><a href="sub/b.html">b</a><a href="b.html">b</a>'
     (folder / "sub" / "c.html").write_text(text)
     assert faults_of(folder) == ["sub/c.html: b.html leads nowhere"]
+
+
+@pytest.mark.parametrize("name", ["mine", "mine/notes.txt"])
+@pytest.mark.parametrize(
+    ("tool", "told"),
+    [(docs, "is not a site that this script built"), (lesson, "holds no built lesson")],
+)
+def test_a_folder_of_something_else_is_not_replaced(tmp_path, tool, told, name):
+    file = tmp_path / name
+    file.parent.mkdir(exist_ok=True)
+    file.write_text("mine")
+    with pytest.raises(lesson.BuildError, match=told):
+        tool.build(tmp_path / "mine")
+    assert file.read_text() == "mine"
 
 
 def test_versions_are_pinned():

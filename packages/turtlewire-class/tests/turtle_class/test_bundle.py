@@ -13,11 +13,9 @@ WHEELHOUSE = ROOT / "build/wheelhouse" / f"{sys.version_info.major}.{sys.version
 UP = "ip link set lo up"
 
 
-def bundle(output, wheels):
+def bundle(output, *words):
     command = [sys.executable, str(TOOLS / "bundle.py"), "--output", str(output)]
-    return subprocess.run(
-        [*command, "--wheels", str(wheels)], capture_output=True, text=True, check=False
-    )
+    return subprocess.run([*command, *map(str, words)], capture_output=True, text=True, check=False)
 
 
 @pytest.fixture
@@ -31,7 +29,7 @@ def fake_wheels(tmp_path):
 
 
 def test_it_holds_what_a_class_needs(tmp_path, fake_wheels):
-    done = bundle(tmp_path, fake_wheels)
+    done = bundle(tmp_path, "--wheels", fake_wheels)
     assert done.returncode == 0, done.stderr
     assert "turtlewire-class.zip: " in done.stdout
     folder = tmp_path / "turtlewire-class"
@@ -45,7 +43,7 @@ def test_it_holds_what_a_class_needs(tmp_path, fake_wheels):
 
 
 def test_start_says_which_computers_it_is_for(tmp_path, fake_wheels):
-    bundle(tmp_path, fake_wheels)
+    bundle(tmp_path, "--wheels", fake_wheels)
     done = subprocess.run(
         ["sh", tmp_path / "turtlewire-class/start", "--into", tmp_path / "venv"],
         env={**os.environ, "PYTHON": sys.executable},
@@ -58,10 +56,20 @@ def test_start_says_which_computers_it_is_for(tmp_path, fake_wheels):
     assert not (tmp_path / "venv").exists()
 
 
-def test_without_wheels_it_says_so(tmp_path):
-    done = bundle(tmp_path, tmp_path)
-    assert done.returncode == 1
-    assert "holds no wheel of turtlewire-class" in done.stderr
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--wheels", "nothing"], "[bundle] nothing holds no wheel of turtlewire-class"),
+        (["--python", "python9"], "[bundle] there is no program python9"),
+    ],
+)
+def test_without_what_it_needs_an_older_bundle_stays(tmp_path, words, told):
+    older = tmp_path / "turtlewire-class" / "wheels" / "older.whl"
+    older.parent.mkdir(parents=True)
+    older.touch()
+    done = bundle(tmp_path, *words)
+    assert (done.returncode, done.stderr.splitlines()) == (1, [told])
+    assert older.exists()
 
 
 def why_not():
@@ -75,7 +83,7 @@ def why_not():
 @pytest.mark.slow
 @pytest.mark.skipif(bool(why_not()), reason=why_not())
 def test_without_a_network_it_installs_runs_the_demo_and_grades(tmp_path):
-    done = bundle(tmp_path, WHEELHOUSE)
+    done = bundle(tmp_path, "--wheels", WHEELHOUSE)
     assert done.returncode == 0, done.stderr
     folder, venv = tmp_path / "turtlewire-class", tmp_path / "home" / "turtlewire-class"
     venv.parent.mkdir()
