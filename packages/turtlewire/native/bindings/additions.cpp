@@ -6,12 +6,6 @@
 namespace turtlewire::python {
 namespace {
 
-bool flag_of(PyObject* object, bool& flag) {
-  const int truth = object == nullptr ? 0 : PyObject_IsTrue(object);
-  flag = truth == 1;
-  return truth >= 0;
-}
-
 // One transform as Python gives it.
 struct Given {
   std::string_view parent{}, child{}, sender = kUnknownSender;
@@ -96,9 +90,10 @@ PyObject* set_or_explain(PyObject* self, PyObject* const* arguments, Py_ssize_t 
   BufferObject* buffer = buffer_of(self);
   if (buffer == nullptr || !signature.read(arguments, count, keywords, v) ||
       !given.take_frames(v[0], v[1], v[6]) || !nanoseconds_of(v[2], given.stamp, "stamp_ns") ||
-      !given.take_pose(v[3], v[4]) || !flag_of(v[5], given.is_static)) {
+      !given.take_pose(v[3], v[4])) {
     return nullptr;
   }
+  given.is_static = is_true(v[5]);
   return to_python(explain(given.add_to(*buffer)));
 }
 
@@ -108,14 +103,14 @@ PyObject* add_tf_message(PyObject* self, PyObject* const* arguments, Py_ssize_t 
       {"add_tf_message", 1, 1, {"cdr", "static", "sender"}});
   thread_local TfMessage message;
   Values<3> v;
-  bool is_static = false;
   std::string_view sender = kUnknownSender;
   BufferObject* buffer = buffer_of(self);
   Bytes bytes;
   if (buffer == nullptr || !signature.read(arguments, count, keywords, v) || !bytes.read(v[0]) ||
-      !flag_of(v[1], is_static) || (v[2] != nullptr && !text_of(v[2], sender, "sender"))) {
+      (v[2] != nullptr && !text_of(v[2], sender, "sender"))) {
     return nullptr;
   }
+  const bool is_static = is_true(v[1]);
   const std::string fault = message.decode(bytes.data(), bytes.size());
   if (!fault.empty()) {
     buffer->refuse_message(fault, sender);
