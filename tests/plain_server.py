@@ -2,35 +2,24 @@
 
 import asyncio
 import contextlib
-import importlib.util
 import queue
 import shutil
 import ssl
 import subprocess
 import threading
 from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from urllib.parse import urlsplit
 
 import pytest
-from tests.places import TOOLS
-
-
-class Quiet(SimpleHTTPRequestHandler):
-    def log_message(self, *_):
-        pass
+import served_pages
+import static_server
 
 
 @contextlib.contextmanager
 def plain_server(folder):
     """Serve a folder on loopback; yields the port."""
-    with ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=folder)) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        try:
-            yield server.server_address[1]
-        finally:
-            server.shutdown()
-            thread.join()
+    with served_pages.static(folder) as address:
+        yield urlsplit(address).port
 
 
 @contextlib.asynccontextmanager
@@ -115,21 +104,12 @@ def self_signed(folder):
 LONG_MS = 100_000
 
 
-def static_server(folder):
-    """The server of `scripts/docs --serve` and `scripts/lesson --serve`."""
-    path = TOOLS / "static_server.py"
-    spec = importlib.util.spec_from_file_location("static_server", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    module.StaticPages.log_message = lambda *_: None
-    return module.static_server(folder, 0)
-
-
 class Host:
-    """A static host, which can be switched off."""
+    """The server of `scripts/docs --serve` and `scripts/lesson --serve`; it can be switched off."""
 
     def __init__(self, folder):
-        self._server = static_server(folder)
+        static_server.StaticPages.log_message = lambda *_: None
+        self._server = static_server.static_server(folder, 0)
         self.url = f"http://localhost:{self._server.server_address[1]}/"
         self._thread = threading.Thread(target=self._server.serve_forever)
         self._thread.start()

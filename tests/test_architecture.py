@@ -7,12 +7,15 @@ import ast
 import configparser
 import importlib
 import re
-import sys
 from fnmatch import fnmatch
 
+import architecture
+import columns
+import import_contracts
+import prose
 import pytest
 from tests.needs import HAS_CYCLONE_DDS
-from tests.places import ROOT, ROS, SCRIPTS, TOOLS
+from tests.places import ROOT, ROS, SCRIPTS
 
 #: Modules that lie in circles, by room: rclpy's pairs, which ROS 2's surface wants. Lower a number
 #: when circles end; raise none.
@@ -25,26 +28,11 @@ NOT_IMPORTED = {"turtlewire_colcon.colcon_ament"}
 
 
 @pytest.fixture(scope="module")
-def script():
-    """Imports a module of the folder ``tools``."""
-    sys.path.insert(0, str(TOOLS))
-    try:
-        yield importlib.import_module
-    finally:
-        sys.path.remove(str(TOOLS))
-
-
-@pytest.fixture(scope="module")
-def architecture(script):
-    return script("architecture")
-
-
-@pytest.fixture(scope="module")
-def house(architecture):
+def house():
     return architecture.House(ROOT)
 
 
-def test_circles_of_imports_only_become_fewer(architecture, house):
+def test_circles_of_imports_only_become_fewer(house):
     found = dict.fromkeys(IN_CIRCLES, 0)
     for circle in house.circles("run", "late", "type"):
         for name in circle:
@@ -75,7 +63,7 @@ def test_no_circle_at_import_time(house):
     assert house.circles("run") == []
 
 
-def test_a_circle_is_found_whatever_the_kind_of_its_imports(architecture, tmp_path):
+def test_a_circle_is_found_whatever_the_kind_of_its_imports(tmp_path):
     package = tmp_path / "packages" / "some" / "src" / "pkg"
     package.mkdir(parents=True)
     (package / "__init__.py").touch()
@@ -90,8 +78,8 @@ def test_a_circle_is_found_whatever_the_kind_of_its_imports(architecture, tmp_pa
     assert [found.kind for found in house.imports] == ["run", "late", "type"]
 
 
-def test_import_linter_knows_every_package(house, script):
-    contracts = script("import_contracts").contracts()
+def test_import_linter_knows_every_package(house):
+    contracts = import_contracts.contracts()
     packages = sorted({name.partition(".")[0] for name in house.paths})
     assert contracts["importlinter"]["root_packages"].split() == packages
     layers = contracts["importlinter:contract:ros"]["layers"].replace(":", " ").split()
@@ -201,8 +189,7 @@ def test_the_docstring_of_a_package_lists_its_modules(house):
     assert wrong == {}
 
 
-def test_a_line_may_have_a_hundred_characters(script):
-    columns = script("columns")
+def test_a_line_may_have_a_hundred_characters():
     assert not columns.too_long("a.py", "x " * 50)
     assert columns.too_long("a.py", "x " * 50 + "y")
     assert columns.too_long("tests/a.py", "'" + "x " * 50 + "'")
@@ -224,9 +211,9 @@ def test_a_line_may_have_a_hundred_characters(script):
         "Read it.\n\n    Raises:\n        ValueError: It ends before it begins.\n    ",
     ],
 )
-def test_prose_lint_rejects_a_docstring(script, docstring):
+def test_prose_lint_rejects_a_docstring(docstring):
     source = f'def read():\n    """{docstring}"""\n'
-    assert list(script("prose").faults_of(source, set()))
+    assert list(prose.faults_of(source, set()))
 
 
 @pytest.mark.parametrize(
@@ -236,13 +223,12 @@ def test_prose_lint_rejects_a_docstring(script, docstring):
         "Read setup.py.\n\n    Raises:\n        ValueError: ``end`` is before ``start``.\n    ",
     ],
 )
-def test_prose_lint_accepts_a_docstring(script, docstring):
+def test_prose_lint_accepts_a_docstring(docstring):
     source = f'def read():\n    """{docstring}"""\n'
-    assert not list(script("prose").faults_of(source, {"setup.py"}))
+    assert not list(prose.faults_of(source, {"setup.py"}))
 
 
-def test_prose_lint_checks_comments_and_test_names(script):
-    prose = script("prose")
+def test_prose_lint_checks_comments_and_test_names():
     assert list(prose.faults_of("x = 1  # nobody knows, thus it waits for ever\n", set()))
     assert not list(prose.faults_of("x = 1  # the file is not a bag\n", set()))
     names = {"what_is_refused": 1, "a" * 66: 1, "a" * 65: 0, "unknown_option_is_rejected": 0}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import itertools
 import os
 import queue
@@ -10,23 +9,16 @@ import signal
 import subprocess
 import sys
 
+import platforms
 import pytest
-from tests.places import ENGINE, ROOT, TOOLS
+from tests.places import ENGINE, ROOT
 
 from turtlewire import demo
 from turtlewire.terminal.console_keyboard import ConsoleKeyboard
 from turtlewire.wire.wheels import Platform, advice
 
 
-@pytest.fixture(scope="module")
-def platforms():
-    spec = importlib.util.spec_from_file_location("platforms", TOOLS / "platforms.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_nothing_is_used_that_only_posix_has(platforms, capsys):
+def test_nothing_is_used_that_only_posix_has(capsys):
     assert platforms.main() == 0, capsys.readouterr().out
 
 
@@ -39,7 +31,7 @@ def test_nothing_is_used_that_only_posix_has(platforms, capsys):
         ("import subprocess\n\nsubprocess.run(['bash', '-c', 'true'])\n", 3),
     ],
 )
-def test_the_lint_finds_what_is_not_guarded(platforms, monkeypatch, tmp_path, source, line):
+def test_the_lint_finds_what_is_not_guarded(monkeypatch, tmp_path, source, line):
     monkeypatch.setattr(platforms, "ROOT", tmp_path)
     (tmp_path / "module.py").write_text(source)
     [(found, _)] = platforms.faults(tmp_path / "module.py")
@@ -56,7 +48,7 @@ def test_the_lint_finds_what_is_not_guarded(platforms, monkeypatch, tmp_path, so
         '"""bash"""\n',
     ],
 )
-def test_the_lint_lets_pass_what_is_guarded(platforms, monkeypatch, tmp_path, source):
+def test_the_lint_lets_pass_what_is_guarded(monkeypatch, tmp_path, source):
     monkeypatch.setattr(platforms, "ROOT", tmp_path)
     (tmp_path / "module.py").write_text(source)
     assert list(platforms.faults(tmp_path / "module.py")) == []

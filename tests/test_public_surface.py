@@ -1,13 +1,11 @@
-"""`tools/public_surface.py`: what the next release would break, in small checkouts."""
+"""`tools/public_public_surface.py`: what the next release would break, in small checkouts."""
 
-import importlib.util
 import subprocess
-import sys
 
 import pytest
-from tests.places import TOOLS
 
 pytest.importorskip("griffe", reason="scripts/setup lint installs it")
+import public_surface
 
 BEFORE = {
     "__init__.py": "from turtlewire.store import Store, look\n__all__ = ['Store', 'look']\n",
@@ -17,18 +15,6 @@ BEFORE = {
         "def look(target, source): ...\ndef inside(): ...\n"
     ),
 }
-
-
-@pytest.fixture(scope="module")
-def surface():
-    sys.path.insert(0, str(TOOLS))
-    try:
-        spec = importlib.util.spec_from_file_location("surface", TOOLS / "public_surface.py")
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-    finally:
-        sys.path.remove(str(TOOLS))
-    return module
 
 
 def git(folder, *arguments):
@@ -50,13 +36,13 @@ def checkout(tmp_path):
     return folder
 
 
-def found(surface, checkout, **changed):
+def found(checkout, **changed):
     for name, (old, new) in changed.items():
         path = checkout / f"{name}.py"
         text = path.read_text()
         assert old in text
         path.write_text(text.replace(old, new))
-    return list(surface.breakages(checkout.parents[3], "turtlewire", [""], "v1.2.0"))
+    return list(public_surface.breakages(checkout.parents[3], "turtlewire", [""], "v1.2.0"))
 
 
 @pytest.mark.parametrize(
@@ -70,8 +56,8 @@ def found(surface, checkout, **changed):
         ("def close(", "def shut(", "Store.close: Public object was removed"),
     ],
 )
-def test_a_program_that_would_fail_is_found(surface, checkout, old, new, line):
-    (only,) = found(surface, checkout, store=(old, new))
+def test_a_program_that_would_fail_is_found(checkout, old, new, line):
+    (only,) = found(checkout, store=(old, new))
     assert line in only
 
 
@@ -84,26 +70,26 @@ def test_a_program_that_would_fail_is_found(surface, checkout, old, new, line):
         ("class Store", "class More: ...\nclass Store"),
     ],
 )
-def test_additions_and_private_names_are_free(surface, checkout, old, new):
-    assert found(surface, checkout, store=(old, new)) == []
+def test_additions_and_private_names_are_free(checkout, old, new):
+    assert found(checkout, store=(old, new)) == []
 
 
-def test_a_name_may_move_but_must_stay_exported(surface, checkout):
+def test_a_name_may_move_but_must_stay_exported(checkout):
     (checkout / "store.py").rename(checkout / "stores.py")
     init = checkout / "__init__.py"
     init.write_text(init.read_text().replace("turtlewire.store", "turtlewire.stores"))
-    assert found(surface, checkout) == []
+    assert found(checkout) == []
     init.write_text("from turtlewire.stores import Store\n__all__ = ['Store']\n")
-    (only,) = found(surface, checkout)
+    (only,) = found(checkout)
     assert "look: Public object was removed" in only
 
 
-def test_the_last_release_is_the_newest_tag_of_a_version(surface, checkout):
+def test_the_last_release_is_the_newest_tag_of_a_version(checkout):
     root = checkout.parents[3]
     git(root, "tag", "nightly")
-    assert surface.last_release(root) == "v1.2.0"
+    assert public_surface.last_release(root) == "v1.2.0"
     git(root, "tag", "-d", "v1.2.0")
-    assert surface.last_release(root) == ""
+    assert public_surface.last_release(root) == ""
 
 
 @pytest.mark.parametrize(
@@ -116,5 +102,5 @@ def test_the_last_release_is_the_newest_tag_of_a_version(surface, checkout):
         ("v0.9.0", "1.0.0", True),
     ],
 )
-def test_only_some_versions_may_break_a_promise(surface, before, now, may):
-    assert surface.may_break(before, now) is may
+def test_only_some_versions_may_break_a_promise(before, now, may):
+    assert public_surface.may_break(before, now) is may

@@ -1,25 +1,19 @@
 """`scripts/release`: its fast parts; a release tests the rest."""
 
-import importlib.util
 import json
 import re
 import tarfile
 import zipfile
 
 import pytest
-from tests.places import ROOT, TOOLS
+import release
+import release_checks as checks
+import release_wheels as wheels
+from tests.places import ROOT
 
 
 @pytest.fixture
-def release():
-    spec = importlib.util.spec_from_file_location("release", TOOLS / "release.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-@pytest.fixture
-def sources(release, monkeypatch, tmp_path):
+def sources(monkeypatch, tmp_path):
     """Two projects and a CHANGELOG in an empty folder."""
     monkeypatch.setattr(release, "ROOT", tmp_path)
     monkeypatch.setattr(release, "PROJECTS", {"one": tmp_path, "two": tmp_path / "ros"})
@@ -32,11 +26,11 @@ def sources(release, monkeypatch, tmp_path):
     return tmp_path
 
 
-def test_the_version_of_the_sources_is_one(release):
+def test_the_version_of_the_sources_is_one():
     assert re.fullmatch(r"\d+\.\d+\.\d+", release.version_of_all())
 
 
-def test_different_versions_are_no_release(release, sources):
+def test_different_versions_are_no_release(sources):
     assert release.version_of_all() == "1.2.0"
     other = 'version = "1.2.0"\ndependencies = [\n    "turtlewire==1.1.0",\n]\n'
     (sources / "ros" / "pyproject.toml").write_text(other)
@@ -44,7 +38,7 @@ def test_different_versions_are_no_release(release, sources):
         release.version_of_all()
 
 
-def test_a_version_is_set_in_each_project_and_requirement(release, sources):
+def test_a_version_is_set_in_each_project_and_requirement(sources):
     requires = (
         'version = "1.2.0"\ndependencies = [\n    "turtlewire==1.2.0",\n    "six==1.2.0",\n]\n'
     )
@@ -59,7 +53,7 @@ def test_a_version_is_set_in_each_project_and_requirement(release, sources):
     assert release.version_of_all() == "1.3.0rc1"
 
 
-def test_other_bytes_of_a_second_build_are_no_release(release, tmp_path):
+def test_other_bytes_of_a_second_build_are_no_release(tmp_path):
     for name, content in {"a": b"x", "b": b"x", "c": b"y"}.items():
         (tmp_path / name).write_bytes(content)
     release.check_again(tmp_path / "a", tmp_path / "b")
@@ -67,7 +61,7 @@ def test_other_bytes_of_a_second_build_are_no_release(release, tmp_path):
         release.check_again(tmp_path / "a", tmp_path / "c")
 
 
-def test_the_notes_are_the_section_of_the_version_or_what_is_unreleased(release, sources):
+def test_the_notes_are_the_section_of_the_version_or_what_is_unreleased(sources):
     assert release.notes("1.1.0") == "# turtlewire 1.1.0\n\n- Old.\n"
     assert release.notes("1.2.0") == "# turtlewire 1.2.0\n\n- New.\n"
     (sources / "CHANGELOG.md").write_text("# Changelog\n\n## 1.1.0\n\n- Old.\n")
@@ -75,13 +69,13 @@ def test_the_notes_are_the_section_of_the_version_or_what_is_unreleased(release,
         release.notes("1.2.0")
 
 
-def test_a_step_that_fails_shows_what_it_printed(release, capsys):
+def test_a_step_that_fails_shows_what_it_printed(capsys):
     with pytest.raises(release.ReleaseError, match="the step failed, see above"):
         release.run("python3", "-c", "print('why'); raise SystemExit(3)", what="the step")
     assert "why" in capsys.readouterr().err
 
 
-def test_an_unknown_python_is_refused(release, monkeypatch, capsys):
+def test_an_unknown_python_is_refused(monkeypatch, capsys):
     monkeypatch.setattr("sys.argv", ["release", "--python", "3.9"])
     with pytest.raises(SystemExit) as ended:
         release.main()
@@ -89,17 +83,7 @@ def test_an_unknown_python_is_refused(release, monkeypatch, capsys):
     assert "3.9" in capsys.readouterr().err
 
 
-@pytest.fixture
-def wheels(release):
-    return importlib.import_module("release_wheels")
-
-
-@pytest.fixture
-def checks(release):
-    return importlib.import_module("release_checks")
-
-
-def test_one_wheel_is_for_python_3_12_and_all_later_ones(wheels):
+def test_one_wheel_is_for_python_3_12_and_all_later_ones():
     pythons = {version: f"/python{version}" for version in wheels.VERSIONS}
     made = wheels.targets(pythons, ("x86_64", "aarch64"))
     for machine in ("x86_64", "aarch64"):
@@ -114,7 +98,7 @@ def test_one_wheel_is_for_python_3_12_and_all_later_ones(wheels):
     assert len(made) == 10
 
 
-def test_a_machine_asked_for_needs_its_compiler(wheels, monkeypatch, capsys):
+def test_a_machine_asked_for_needs_its_compiler(monkeypatch, capsys):
     monkeypatch.setattr(wheels, "here", lambda: "x86_64")
     monkeypatch.setattr(wheels.sys, "platform", "linux")
     monkeypatch.setattr(wheels.shutil, "which", lambda name: None)
@@ -139,7 +123,7 @@ GOOD = (
 )
 
 
-def test_a_wheel_holds_its_package_and_one_compiled_module(checks, tmp_path):
+def test_a_wheel_holds_its_package_and_one_compiled_module(tmp_path):
     checks.check_wheel(zipped(tmp_path / "good.whl", *GOOD), "turtlewire")
     checks.check_wheel(zipped(tmp_path / "pure.whl", "rclpy/node.py", "tf2_ros/a.py"), None)
 
@@ -155,12 +139,12 @@ def test_a_wheel_holds_its_package_and_one_compiled_module(checks, tmp_path):
         (("rclpy/node.py", "rclpy/node.so"), None, "node.so"),
     ],
 )
-def test_a_wheel_with_anything_else_is_refused(checks, tmp_path, names, package, told):
+def test_a_wheel_with_anything_else_is_refused(tmp_path, names, package, told):
     with pytest.raises(checks.ReleaseError, match=re.escape(told)):
         checks.check_wheel(zipped(tmp_path / "bad.whl", *names), package)
 
 
-def test_an_sdist_holds_sources_alone(checks, tmp_path):
+def test_an_sdist_holds_sources_alone(tmp_path):
     (tmp_path / "a.py").write_text("")
     for name, inside in (("good", "p-1/src/a.py"), ("bad", "p-1/src/_native.so")):
         with tarfile.open(tmp_path / f"{name}.tar.gz", "w:gz") as archive:

@@ -6,12 +6,11 @@ the bytes, and that nothing moves while a page loads.
 """
 
 import contextlib
-import importlib
-import sys
 from pathlib import Path
 
+import page_audit
 import pytest
-from tests.places import ROOT, TOOLS
+from tests.places import ROOT
 
 PAGES = ["view", "graph", "turtlesim", "sliders", "class", "lesson", "site", "site's page"]
 BUILT = {"lesson": "lesson", "site": "site", "site's page": "site"}
@@ -20,15 +19,10 @@ BUILT = {"lesson": "lesson", "site": "site", "site's page": "site"}
 @pytest.fixture(scope="session")
 def audit():
     """The module `tools/page_audit.py`."""
-    sys.path.insert(0, str(TOOLS))
-    try:
-        module = importlib.import_module("page_audit")
-    finally:
-        sys.path.remove(str(TOOLS))
-    assert list(module.PAGES) == PAGES
-    if text := module.missing():
+    assert list(page_audit.PAGES) == PAGES
+    if text := page_audit.missing():
         pytest.skip(text)
-    return module
+    return page_audit
 
 
 @pytest.fixture(scope="module", params=PAGES)

@@ -2,11 +2,10 @@
 
 import base64
 import hashlib
-import importlib
 from pathlib import Path
 
+import lesson
 import pytest
-from tests.places import TOOLS
 
 NAME, VERSION, FILE = "@codemirror/view", "6.1.0", "codemirror-view-6.1.0.tgz"
 
@@ -19,16 +18,14 @@ class TestFetched:
     @pytest.fixture
     def npm(self, monkeypatch, tmp_path):
         """The module, with an npm that writes what it is told to, and a cache of this test."""
-        monkeypatch.syspath_prepend(TOOLS)
-        module = importlib.import_module("lesson")
         self.content, self.commands, self.programs = b"archive", [], {"npm"}
         monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-        monkeypatch.setattr(module, "CLIENT", tmp_path / "build" / "npm-client")
+        monkeypatch.setattr(lesson, "CLIENT", tmp_path / "build" / "npm-client")
         monkeypatch.setattr(
-            module.shutil, "which", lambda name: name if name in self.programs else None
+            lesson.shutil, "which", lambda name: name if name in self.programs else None
         )
-        monkeypatch.setattr(module, "_run", self.run)
-        return module
+        monkeypatch.setattr(lesson, "_run", self.run)
+        return lesson
 
     def run(self, command, folder):
         self.commands.append(command)
@@ -77,8 +74,6 @@ class TestFetched:
         assert second == first
 
 
-def test_a_program_that_fails_is_shown(monkeypatch, tmp_path):
-    monkeypatch.syspath_prepend(TOOLS)
-    module = importlib.import_module("lesson")
-    with pytest.raises(module.BuildError, match=r"(?s)`sh -c .*` failed:\nwhy"):
-        module._run(["sh", "-c", "echo why; exit 1"], tmp_path)
+def test_a_program_that_fails_is_shown(tmp_path):
+    with pytest.raises(lesson.BuildError, match=r"(?s)`sh -c .*` failed:\nwhy"):
+        lesson._run(["sh", "-c", "echo why; exit 1"], tmp_path)
