@@ -215,6 +215,15 @@ class Program:
         self._reader.join(timeout)
         return status
 
+    def end(self, processes=None):
+        """Press Ctrl-C; check that it ends well, leaves nothing, and how many processes end."""
+        self.signal_group(signal.SIGINT)
+        assert self.wait() == 0, self.text
+        assert "Traceback" not in self.text, self.text
+        assert self.survivors() == []
+        if processes is not None:
+            assert self.text.count("process has finished cleanly") == processes, self.text
+
     def survivors(self):
         """Processes that it started, directly or not, and that have not ended (zombies have)."""
         found = []

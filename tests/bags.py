@@ -8,15 +8,19 @@ SECOND = 1_000_000_000
 START = 1_700_000_000 * SECOND
 
 
+def stamped(message, stamp_ns, frame=""):
+    """The message, with a time and a frame in its header."""
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp_ns, SECOND)
+    message.header.frame_id = frame
+    return message
+
+
 def transform(i, parent="odom", child="base_link"):
     """A TFMessage of one transform, 10 ms after the one before."""
-    stamped = msg.get_message("geometry_msgs/msg/TransformStamped")()
-    stamp = START + i * 10_000_000
-    stamped.header.stamp.sec, stamped.header.stamp.nanosec = divmod(stamp, SECOND)
-    stamped.header.frame_id, stamped.child_frame_id = parent, child
-    stamped.transform.translation.x = 0.01 * i
-    stamped.transform.rotation.w = 1.0
-    return msg.get_message("tf2_msgs/msg/TFMessage")(transforms=[stamped])
+    made = msg.get_message("geometry_msgs/msg/TransformStamped")(child_frame_id=child)
+    made.transform.translation.x, made.transform.rotation.w = 0.01 * i, 1.0
+    stamped(made, START + i * 10_000_000, parent)
+    return msg.get_message("tf2_msgs/msg/TFMessage")(transforms=[made])
 
 
 def write_bag(path, count=100, **options):

@@ -12,14 +12,13 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 from PIL import Image as Picture
+from tests.bags import SECOND, START, stamped
 from tests.places import EXAMPLES
 
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.errors import BagError
 from turtlewire.msg import get_message
 
-SECOND = 1_000_000_000
-START = 1_700_000_000 * SECOND
 FPS = 20
 PARTS = ("--fps", FPS, "--pose", "base_link:hand", "--action", "/commands:data")
 CAMERA = ("--camera", "top=/camera/image_raw")
@@ -53,12 +52,6 @@ def convert(recipe, tmp_path):
 def frames_of(path):
     with av.open(path) as file:
         return [(frame.time, frame.to_ndarray(format="rgb24")) for frame in file.decode(video=0)]
-
-
-def stamped(message, stamp, frame=""):
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, SECOND)
-    message.header.frame_id = frame
-    return message
 
 
 def joint_state(stamp, **positions):

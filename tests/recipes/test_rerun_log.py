@@ -12,6 +12,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from PIL import Image as Picture
+from tests.bags import SECOND, START, stamped
 from tests.places import EXAMPLES
 
 import turtlewire
@@ -20,9 +21,6 @@ from turtlewire.msg import get_message
 
 rerun = pytest.importorskip("rerun", reason="the recipe needs Python 3.11")
 from rerun.chunk import RrdReader  # noqa: E402
-
-SECOND = 1_000_000_000
-START = 1_700_000_000 * SECOND
 
 
 @pytest.fixture
@@ -52,12 +50,6 @@ def values(rows, field):
 
 def stamps(rows):
     return [row["stamp"] for row in rows if row.get("stamp") is not None]
-
-
-def stamped(message, stamp, frame=""):
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, SECOND)
-    message.header.frame_id = frame
-    return message
 
 
 def transform(parent, child, x, stamp=START):

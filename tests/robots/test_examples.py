@@ -1,14 +1,21 @@
-"""The robots in examples/: they drive and walk."""
+"""The robots in examples/ drive and walk; the examples of the how-to page about joints run."""
 
 import importlib
 import math
 import re
-import signal
+import time
+from functools import partial
 
 import pytest
-from tests.places import EXAMPLES, ROS2
+from tests.how_to import blocks, wait_until_printed
+from tests.places import EXAMPLES, HOW_TO, PATH, ROS2
+
+from joint_state_publisher.description import JointOptions, read_joints
 
 ROBOTS = EXAMPLES / "robots"
+PAGE = HOW_TO / "robots.md"
+#: Commands that the page shows without running them.
+ONLY_SHOWN = ("ros2 launch urdf_tutorial", "ros2 launch examples/robots/walker")
 
 
 @pytest.fixture(autouse=True)
@@ -22,10 +29,7 @@ def test_the_walker_walks(run):
     echo = run(ROS2, "run", "tf2_ros", "tf2_echo", "odom", "left_front_foot")
     echo.wait_for(r"^- Translation: \[", count=2)
     echo.kill()
-    launch.signal_group(signal.SIGINT)
-    launch.wait()
-    assert "Traceback" not in launch.text
-    assert launch.survivors() == []
+    launch.end()
 
 
 def test_the_rover_drives(run):
@@ -37,10 +41,7 @@ def test_the_rover_drives(run):
     echo.wait_for(r"^- Translation: \[0\.[2-9]|^- Translation: \[[1-9]")
     for program in (teleop, echo):
         program.kill()
-    launch.signal_group(signal.SIGINT)
-    launch.wait()
-    assert "Traceback" not in launch.text
-    assert launch.survivors() == []
+    launch.end()
 
 
 @pytest.mark.parametrize("robot", ["walker", "rover"])
@@ -75,3 +76,51 @@ def test_three_feet_of_the_walker_are_always_on_the_ground():
         assert all(-LIFT <= angles[f"{name}_knee"] <= 0 for name in LEGS)
     assert gait(0.0) == (1, 0.0)
     assert gait(0.5) == pytest.approx((-1, 0.0))
+
+
+def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", PATH)
+    monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
+    monkeypatch.chdir(tmp_path)
+    names = iter(re.findall(r"^Save this as `(\S+)`:$", PAGE.read_text(), re.MULTILINE))
+    background = []
+    checked = 0
+    for kind, text in blocks(PAGE.read_text()):
+        if kind in {"xml", "python"}:
+            (tmp_path / next(names)).write_text(text)
+        elif kind == "sh":
+            for line in text.splitlines():
+                if line.endswith(" &"):
+                    background.append(run("bash", "-c", f"exec {line.removesuffix(' &')}"))
+                else:
+                    printed(run, line)
+        elif not text.startswith(ONLY_SHOWN):
+            wait_until_printed(text, partial(printed, run, line))
+            checked += 1
+    assert checked == 2
+    background[-1].wait_for(r"The joints' sliders are at http://127\.0\.0\.1:\d+/")
+    assert not list(names)
+
+
+def printed(run, line: str) -> str:
+    program = run("bash", "-c", f"exec {line}")
+    assert program.wait() == 0, program.text
+    return "".join(f"{text}\n" for text in program.text.splitlines() if "[INFO]" not in text)
+
+
+def test_the_table_names_every_parameter(run, tmp_path):
+    model = tmp_path / "one.urdf"
+    model.write_text("<robot name='a'><joint name='j' type='continuous'/></robot>")
+    assert read_joints(model.read_text(), JointOptions({}, {}), print).order == ["j"]
+    node = run(ROS2, "run", "joint_state_publisher", "joint_state_publisher", model)
+    limit = time.monotonic() + 60
+    while (listing := run(ROS2, "param", "list", "/joint_state_publisher")).wait() != 0:
+        assert time.monotonic() < limit, node.text  # until the node is there
+    table = PAGE.read_text().replace("`_velocities`", "`publish_default_velocities`")
+    table = table.replace("`_efforts`", "`publish_default_efforts`")
+    own = {name.strip() for name in listing.text.splitlines()} - {
+        "use_sim_time",
+        "start_type_description_service",
+    }
+    assert own
+    assert all(f"`{name}`" in table for name in own), own

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import signal
 import xml.etree.ElementTree as ET
 
 import pytest
@@ -40,10 +39,7 @@ DISPLAY = "ros2 launch urdf_tutorial display.launch.py"
 
 
 def end(launch) -> None:
-    launch.signal_group(signal.SIGINT)
-    assert launch.wait() == 0
-    assert "Traceback" not in launch.text
-    assert launch.survivors() == []
+    launch.end()
 
 
 def test_the_workspace_is_known(workspace, sourced, run):
@@ -129,10 +125,7 @@ def test_using_urdf_with_robot_state_publisher(sourced, run):
     places = echo.wait_for(r"^- Translation: \[(\S+), (\S+), (\S+)\]", count=2)
     assert len({place.groups() for place in places}) == 2  # it moves
     echo.kill()
-    launch.signal_group(signal.SIGINT)
-    launch.wait()
-    assert "Traceback" not in launch.text
-    assert launch.survivors() == []
+    launch.end()
 
 
 YAML = """

@@ -7,6 +7,7 @@ import sys
 import threading
 
 import pytest
+from tests.places import LEARNING, ROS2
 
 
 @pytest.fixture
@@ -44,6 +45,13 @@ def workspace(tmp_path):
         }
 
     return build
+
+
+@pytest.fixture
+def ros2(run, workspace):
+    """Runs `ros2` with our tutorial package sourced, and with further variables."""
+    sourced = workspace(LEARNING)
+    return lambda *words, **variables: run(ROS2, *words, environment=sourced | variables)
 
 
 @pytest.fixture

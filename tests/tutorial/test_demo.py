@@ -16,6 +16,7 @@ from tests.places import SCRIPTS, TOOLS
 
 DEMO = TOOLS / "demo.py"
 INTERRUPTIBLE = SCRIPTS / "interruptible"
+HEADLESS = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": "", "WAYLAND_DISPLAY": ""}
 VICTIMS = {
     "turtle_tf2_broadcaster-2": "a broadcaster has stopped",
     "turtle_tf2_broadcaster-3": "a broadcaster has stopped",
@@ -55,13 +56,7 @@ def is_running(pid):
 
 @pytest.mark.parametrize("terminal", [True, False])
 def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run, terminal):
-    environment = {
-        "TURTLEWIRE_PORT": "0",
-        "TURTLEWIRE_BROWSER": "0",
-        "DISPLAY": "",
-        "WAYLAND_DISPLAY": "",
-    }
-    demo = run(sys.executable, DEMO, environment=environment, terminal=terminal)
+    demo = run(sys.executable, DEMO, environment=HEADLESS, terminal=terminal)
     domain = os.environ["ROS_DOMAIN_ID"]
     demo.wait_for(rf"ROS domain {domain}, discovery range LOCALHOST \(this computer only")
     demo.wait_for(r"source \S+/\.venv/setup\.bash")
@@ -81,13 +76,7 @@ def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run, termina
 
 
 def test_the_demo_ends_by_itself(run):
-    environment = {
-        "TURTLEWIRE_PORT": "0",
-        "TURTLEWIRE_BROWSER": "0",
-        "DISPLAY": "",
-        "WAYLAND_DISPLAY": "",
-    }
-    demo = run(sys.executable, DEMO, "--seconds", "0.5", environment=environment)
+    demo = run(sys.executable, DEMO, "--seconds", "0.5", environment=HEADLESS)
     assert demo.wait() == 0
     # On a busy machine the time may be over before the processes start. What they print at their
     # end is not shown.
@@ -129,10 +118,9 @@ def test_a_wrong_domain_is_told_with_its_remedy(run):
 def test_ctrl_c_while_it_starts_is_one_line_and_leaves_nothing_behind(run, words, moment):
     if words and moment == "process started with pid":
         pytest.skip("--check shows nothing of what the processes print")
-    environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0"}
     command = [INTERRUPTIBLE, sys.executable, DEMO, *words]
     begin = ["sh", "-c", 'echo begin; exec "$@"', "sh"]
-    demo = run(*begin, *command, environment=environment, terminal=True)
+    demo = run(*begin, *command, environment=HEADLESS, terminal=True)
     demo.wait_for(moment)
     demo.type("\x03")
     # Bash that is interrupted before the first line of its script exits with 255.
@@ -204,8 +192,7 @@ def test_ctrl_c_in_a_callback_of_a_weak_reference_is_not_lost(run):
 
 @pytest.mark.parametrize("command", [[INTERRUPTIBLE], []], ids=["shell", "python"])
 def test_not_even_sigkill_leaves_processes_behind(run, command):
-    environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": ""}
-    demo = run(*command, sys.executable, DEMO, environment=environment)
+    demo = run(*command, sys.executable, DEMO, environment=HEADLESS)
     demo.wait_for("turtle2 follows turtle1")  # from now on the processes have nothing to print
     demo.process.kill()
     demo.wait_for_survivors()
@@ -215,8 +202,7 @@ def test_not_even_sigkill_leaves_processes_behind(run, command):
     "middleware", [pytest.param("rmw_cyclonedds_cpp", marks=needs_cyclone_dds), "rmw_zenoh_cpp"]
 )
 def test_a_second_demo_in_the_same_domain_is_warned(run, middleware):
-    environment = {"TURTLEWIRE_PORT": "0", "TURTLEWIRE_BROWSER": "0", "DISPLAY": ""}
-    environment["RMW_IMPLEMENTATION"] = middleware
+    environment = HEADLESS | {"RMW_IMPLEMENTATION": middleware}
     first = run(sys.executable, DEMO, environment=environment)
     first.wait_for("Starting turtlesim with node name /sim")
     second = run(sys.executable, DEMO, environment=environment)

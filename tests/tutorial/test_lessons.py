@@ -7,21 +7,19 @@ The files of the lesson in the browser, unchanged, by `ros2 launch` and on the w
 
 import math
 import shutil
-import signal
 
 import pytest
-from tests.places import LEARNING, LESSONS, ROOT, ROS2
+from tests.places import LESSONS, ROOT, ROS2
 
 from turtle_lesson.lesson import load_lesson
 from turtlewire import Buffer
 from turtlewire.tf.listener import TransformListener
 
-PACKAGE = LEARNING
 LONG_NS = 60_000_000_000
 
 
 @pytest.fixture
-def lesson(run, workspace):
+def lesson(ros2):
     """Starts a launch file of the package.
 
     At the end Ctrl-C must end all of its processes cleanly.
@@ -29,28 +27,13 @@ def lesson(run, workspace):
     started = []
 
     def start(name, *arguments, processes):
-        started.append(
-            (
-                run(
-                    ROS2,
-                    "launch",
-                    "learning_tf2_py",
-                    name,
-                    *arguments,
-                    environment=workspace(PACKAGE),
-                ),
-                processes,
-            )
-        )
-        return started[-1][0]
+        launch = ros2("launch", "learning_tf2_py", name, *arguments)
+        started.append((launch, processes))
+        return launch
 
     yield start
     for launch, processes in started:
-        launch.signal_group(signal.SIGINT)
-        assert launch.wait() == 0
-        assert launch.survivors() == []
-        assert "Traceback" not in launch.text
-        assert launch.text.count("process has finished cleanly") == processes
+        launch.end(processes)
 
 
 def carrot_seen_from_turtle1(turtles):
@@ -95,7 +78,7 @@ def test_time_travel(lesson, turtles):
 
 
 @pytest.mark.slow
-def test_a_target_is_an_argument(lesson, turtles, run, workspace):
+def test_a_target_is_an_argument(lesson, turtles, run):
     """The launch file of the demo with another target, and the carrot from a terminal of its
     own.
     """
@@ -107,50 +90,24 @@ def test_a_target_is_an_argument(lesson, turtles, run, workspace):
 
 
 @pytest.mark.slow
-def test_the_demo_speaks_the_interfaces_of_kilted(run, workspace):
+def test_the_demo_speaks_the_interfaces_of_kilted(ros2):
     """The same sources, which import turtlesim's interfaces by their former names."""
-    environment = {**workspace(PACKAGE), "ROS_DISTRO": "kilted"}
-    launch = run(
-        ROS2, "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py", environment=environment
-    )
+    launch = ros2("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py", ROS_DISTRO="kilted")
     launch.wait_for("Successfully spawned turtle2")
-    echo = run(
-        ROS2,
-        "topic",
-        "echo",
-        "--once",
-        "/turtle2/pose",
-        "turtlesim_msgs/msg/Pose",
-        environment=environment,
-    )
+    topic = ("/turtle2/pose", "turtlesim_msgs/msg/Pose")
+    echo = ros2("topic", "echo", "--once", *topic, ROS_DISTRO="kilted")
     assert echo.wait() == 0
     assert echo.text.startswith("x: ")
-    launch.signal_group(signal.SIGINT)
-    assert launch.wait() == 0
-    assert launch.text.count("process has finished cleanly") == 4
+    launch.end(4)
 
 
-def test_the_arguments_are_shown_and_checked(run, workspace):
-    environment = workspace(PACKAGE)
-    shown = run(
-        ROS2,
-        "launch",
-        "learning_tf2_py",
-        "turtle_tf2_waiting_demo.launch.py",
-        "-s",
-        environment=environment,
-    )
+def test_the_arguments_are_shown_and_checked(ros2):
+    demo = ("learning_tf2_py", "turtle_tf2_waiting_demo.launch.py")
+    shown = ros2("launch", *demo, "-s")
     assert shown.wait() == 0
     assert "'waiting':" in shown.text
     assert "(default: 'blocking')" in shown.text
-    wrong = run(
-        ROS2,
-        "launch",
-        "learning_tf2_py",
-        "turtle_tf2_waiting_demo.launch.py",
-        "waiting:=never",
-        environment=environment,
-    )
+    wrong = ros2("launch", *demo, "waiting:=never")
     assert wrong.wait() == 1
     assert "['blocking', 'async']" in wrong.text
 
@@ -183,6 +140,4 @@ def test_a_solution_of_the_lesson_does_the_same_when_it_is_launched(
         )
 
     turtles.wait_for(keeps_its_distance)
-    launch.signal_group(signal.SIGINT)
-    assert launch.wait() == 0
-    assert "Traceback" not in launch.text
+    launch.end()

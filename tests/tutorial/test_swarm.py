@@ -15,29 +15,21 @@ import sys
 import threading
 
 import pytest
-from tests.places import LEARNING, ROS2
+from tests.places import LEARNING
 
 from turtlewire import Buffer, msg
 from turtlewire.tf.listener import QOS, TOPIC, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
 
-PACKAGE = LEARNING
 COUNT = 20
 NAMES = [f"turtle{k}" for k in range(1, COUNT + 1)]
 
 
 @pytest.mark.slow
-def test_a_swarm_of_twenty_closes_up(run, workspace, turtles):
+def test_a_swarm_of_twenty_closes_up(ros2, turtles):
     for name in NAMES[2:]:
         turtles.watch(name)
-    launch = run(
-        ROS2,
-        "launch",
-        "learning_tf2_py",
-        "swarm.launch.py",
-        f"count:={COUNT}",
-        environment=workspace(PACKAGE),
-    )
+    launch = ros2("launch", "learning_tf2_py", "swarm.launch.py", f"count:={COUNT}")
     launch.wait_for(f"{COUNT} of {COUNT} turtles follow the one before them")
     turtles.wait_for(lambda: len(turtles.poses) == COUNT)
 
@@ -62,108 +54,65 @@ def test_a_swarm_of_twenty_closes_up(run, workspace, turtles):
     assert max(sizes) == COUNT // 5  # a fifth of the turtles in one message
     turtles.wait_for(lambda: sum(apart()) < 0.5 * sum(before) and max(apart()) < max(before))
 
-    launch.signal_group(signal.SIGINT)
-    assert launch.wait() == 0
-    assert launch.survivors() == []
-    assert "Traceback" not in launch.text
+    launch.end(1)
     assert "hit the wall" not in launch.text
-    assert launch.text.count("process has finished cleanly") == 1
 
 
-def test_the_swarm_joins_a_simulator_that_runs_already(run, workspace, turtles):
-    environment = workspace(PACKAGE)
-    field = run(ROS2, "run", "turtlesim", "turtlesim_node", "--headless", environment=environment)
+def test_the_swarm_joins_a_simulator_that_runs_already(ros2, turtles):
+    field = ros2("run", "turtlesim", "turtlesim_node", "--headless")
     field.wait_for("Spawning turtle .turtle1")
-    swarm = run(
-        ROS2,
-        "run",
-        "learning_tf2_py",
-        "swarm",
-        "--ros-args",
-        "-p",
-        "count:=3",
-        environment=environment,
-    )
+    swarm = ros2("run", "learning_tf2_py", "swarm", "--ros-args", "-p", "count:=3")
     swarm.wait_for("3 of 3 turtles follow the one before them")
     turtles.watch("turtle3")
     turtles.wait_for(lambda: len(turtles.poses) == 3 and turtles.distance() < 0.5)
-    swarm.signal_group(signal.SIGINT)
-    assert swarm.wait() == 0
-    assert "Traceback" not in swarm.text
+    swarm.end()
 
 
 LONG_NS = 60_000_000_000
 
 
-def test_two_turtles_appear_and_one_follows(run, workspace, turtles):
-    launch = run(
-        ROS2,
-        "launch",
-        "learning_tf2_py",
-        "turtle_tf2_demo.launch.py",
-        environment=workspace(PACKAGE),
-    )
+def test_two_turtles_appear_and_one_follows(ros2, turtles):
+    launch = ros2("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
     launch.wait_for("Successfully spawned turtle2")
     turtles.wait_for(lambda: len(turtles.poses) == 2 and turtles.distance() < 1.0)
     buffer = Buffer()
     with TransformListener(buffer, turtles.node, context=turtles.context):
         assert buffer.lookup_transform("turtle2", "turtle1", timeout_ns=LONG_NS).stamp_ns > 0
 
-    launch.signal_group(signal.SIGINT)
-    assert launch.wait() == 0
-    assert launch.survivors() == []
-    assert "Traceback" not in launch.text
-    assert launch.text.count("process has finished cleanly") == 4
+    launch.end(4)
 
 
-def test_a_turtle_that_is_there_is_not_spawned_again(run, workspace, turtles):
-    environment = workspace(PACKAGE)
-    field = run(ROS2, "run", "turtlesim", "turtlesim_node", environment=environment)
+def test_a_turtle_that_is_there_is_not_spawned_again(ros2, turtles):
+    field = ros2("run", "turtlesim", "turtlesim_node")
     field.wait_for("Spawning turtle .turtle1")
-    first = run(ROS2, "run", "learning_tf2_py", "turtle_tf2_listener", environment=environment)
+    first = ros2("run", "learning_tf2_py", "turtle_tf2_listener")
     field.wait_for("Spawning turtle .turtle2")
     turtles.wait_for(lambda: "turtle2" in turtles.poses)
     first.signal_group(signal.SIGINT)
     first.wait()
-    second = run(ROS2, "run", "learning_tf2_py", "turtle_tf2_listener", environment=environment)
+    second = ros2("run", "learning_tf2_py", "turtle_tf2_listener")
     second.wait_for("Could not retrieve transform", count=2)
     field.signal_group(signal.SIGINT)
     field.wait()
     assert "already exists" not in field.text
 
 
-def test_the_static_broadcaster_is_heard_by_late_joiners(run, workspace, turtles):
+def test_the_static_broadcaster_is_heard_by_late_joiners(ros2, turtles):
     arguments = ["thing", "1", "2", "0.5", "0", "0", "1.5707963267948966"]
-    program = run(
-        ROS2,
-        "run",
-        "learning_tf2_py",
-        "static_turtle_tf2_broadcaster",
-        *arguments,
-        environment=workspace(PACKAGE),
-    )
+    program = ros2("run", "learning_tf2_py", "static_turtle_tf2_broadcaster", *arguments)
     buffer = Buffer()
     with TransformListener(buffer, turtles.node, context=turtles.context):
         found = buffer.lookup_transform("world", "thing", timeout_ns=LONG_NS)
     assert found.translation == (1.0, 2.0, 0.5)
     assert found.rotation == pytest.approx((0.0, 0.0, 0.5**0.5, 0.5**0.5))
-    program.signal_group(signal.SIGINT)
-    program.wait()
-    assert "Traceback" not in program.text
+    program.end()
 
 
 @pytest.mark.parametrize(
     "arguments", [[], ["thing", "1"], ["thing", *"12345", "six"], ["world", *"123456"]]
 )
-def test_the_static_broadcaster_explains_itself(run, workspace, arguments):
-    program = run(
-        ROS2,
-        "run",
-        "learning_tf2_py",
-        "static_turtle_tf2_broadcaster",
-        *arguments,
-        environment=workspace(PACKAGE),
-    )
+def test_the_static_broadcaster_explains_itself(ros2, arguments):
+    program = ros2("run", "learning_tf2_py", "static_turtle_tf2_broadcaster", *arguments)
     assert program.wait() != 0
     assert (
         "usage: ros2 run learning_tf2_py static_turtle_tf2_broadcaster NAME X Y Z ROLL PITCH YAW"
@@ -174,10 +123,10 @@ def test_the_static_broadcaster_explains_itself(run, workspace, arguments):
 
 def test_the_package_s_own_tests():
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test"]
-    path = os.pathsep.join(part for part in (str(PACKAGE), os.environ.get("PYTHONPATH")) if part)
+    path = os.pathsep.join(part for part in (str(LEARNING), os.environ.get("PYTHONPATH")) if part)
     done = subprocess.run(
         command,
-        cwd=PACKAGE,
+        cwd=LEARNING,
         env={**os.environ, "PYTHONPATH": path},
         capture_output=True,
         text=True,
