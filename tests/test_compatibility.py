@@ -543,10 +543,10 @@ def entries():
     return cells
 
 
-def table():
+def table(tested=TESTED):
     """Each entry with its tests as pairs of file and name."""
     found, entry = {}, ""
-    for line in filter(None, TESTED.splitlines()):
+    for line in filter(None, tested.splitlines()):
         if line.startswith(" "):
             file, *names = line.split()
             found[entry] += [(file, name) for name in names]

@@ -13,7 +13,6 @@ from turtlewire.program import program
 from turtlewire_ros.executables import executable_paths
 from turtlewire_ros.prefix import own_prefix, package_names
 
-BAG = "tests/golden/bag/talker"
 COMMANDS = [
     "turtlewire --help",
     "turtlewire --version",

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import yaml
 from tests.places import ROOT
-from tests.test_compatibility import functions_of
+from tests.test_compatibility import functions_of, table
 
 from turtlewire import Buffer, msg
 from turtlewire.bag.definitions import learn_types
@@ -125,6 +125,8 @@ Xacro files evaluate expressions
 Grading is not a sandbox
   test_security.py test_grading_runs_as_this_user
 """
+#: The tests of each sentence.
+BY_SENTENCE = table(TESTED)
 # Advice, which nothing can test.
 ADVICE = ("Run and open only files that you trust", "See [what remains]", "Clear the outputs")
 
@@ -138,29 +140,15 @@ def sentences() -> list[str]:
     return [sentence for sentence in split if sentence and not sentence.startswith(ADVICE)]
 
 
-def table() -> dict[str, list[tuple[str, str]]]:
-    """The tests of each sentence."""
-    found: dict[str, list[tuple[str, str]]] = {}
-    sentence = ""
-    for line in TESTED.strip().splitlines():
-        if line.startswith("  "):
-            file, *names = line.split()
-            found[sentence] += [(file, name) for name in names]
-        else:
-            sentence = line
-            found[sentence] = []
-    return found
-
-
 def test_every_sentence_has_its_tests():
     for sentence in sentences():
-        assert sum(sentence.startswith(beginning) for beginning in table()) == 1, sentence
-    assert len(sentences()) == len(table())
-    assert all(table().values())
+        assert sum(sentence.startswith(beginning) for beginning in BY_SENTENCE) == 1, sentence
+    assert len(sentences()) == len(BY_SENTENCE)
+    assert all(BY_SENTENCE.values())
 
 
 @pytest.mark.parametrize(
-    ("file", "name"), sorted({pair for pairs in table().values() for pair in pairs})
+    ("file", "name"), sorted({pair for pairs in BY_SENTENCE.values() for pair in pairs})
 )
 def test_the_tests_are_there(file, name):
     assert name in functions_of(file)

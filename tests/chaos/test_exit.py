@@ -17,8 +17,7 @@ KINDS = (
     if importlib.util.find_spec("turtlewire._native")
     else ["wait", "batch", "change_listener"]
 )
-OVER_THE_WIRE = ["spin", "spin_and_shutdown", "publish"]
-MIDDLEWARES = ["rmw_cyclonedds_cpp", "rmw_zenoh_cpp"]
+SLOW = [pytest.mark.slow, pytest.mark.timeout(1200)]
 
 
 def ends_of(kind: str, count: int, middleware: str = "rmw_cyclonedds_cpp") -> set[tuple[int, str]]:
@@ -38,33 +37,21 @@ def ends_of(kind: str, count: int, middleware: str = "rmw_cyclonedds_cpp") -> se
         return set(pool.map(run, range(count)))
 
 
+@pytest.mark.parametrize("count", [5, pytest.param(200, marks=SLOW)])
 @pytest.mark.parametrize("kind", KINDS)
-def test_exit(kind: str) -> None:
-    assert ends_of(kind, 5) == {(0, "")}
+def test_exit(kind: str, count: int) -> None:
+    assert ends_of(kind, count) == {(0, "")}
 
 
-@pytest.mark.parametrize("middleware", MIDDLEWARES)
-@pytest.mark.parametrize("kind", OVER_THE_WIRE)
-def test_exit_of_a_node(kind: str, middleware: str) -> None:
-    assert ends_of(kind, 3, middleware) == {(0, "")}
-
-
-@pytest.mark.slow
-@pytest.mark.timeout(1200)
-@pytest.mark.parametrize("kind", KINDS)
-def test_200_exits(kind: str) -> None:
-    assert ends_of(kind, 200) == {(0, "")}
-
-
-@pytest.mark.slow
-@pytest.mark.timeout(1200)
-@pytest.mark.parametrize("kind", ["spin", "spin_and_shutdown"])
-def test_200_exits_of_a_node(kind: str) -> None:
-    assert ends_of(kind, 200) == {(0, "")}
-
-
-@pytest.mark.slow
-@pytest.mark.timeout(600)
-@pytest.mark.parametrize("kind", OVER_THE_WIRE)
-def test_40_exits_with_zenoh(kind: str) -> None:
-    assert ends_of(kind, 40, "rmw_zenoh_cpp") == {(0, "")}
+@pytest.mark.parametrize(
+    ("middleware", "count"),
+    [
+        ("rmw_cyclonedds_cpp", 3),
+        ("rmw_zenoh_cpp", 3),
+        pytest.param("rmw_cyclonedds_cpp", 200, marks=SLOW),
+        pytest.param("rmw_zenoh_cpp", 40, marks=SLOW),
+    ],
+)
+@pytest.mark.parametrize("kind", ["spin", "spin_and_shutdown", "publish"])
+def test_exit_of_a_node(kind: str, middleware: str, count: int) -> None:
+    assert ends_of(kind, count, middleware) == {(0, "")}
