@@ -52,7 +52,7 @@ def make(output: Path, pythons: list[str], ready: Path | None) -> None:
     """Make the folder and the zip; an older bundle there is replaced.
 
     Raises:
-        BundleError: There is no such Python, or a wheel cannot be built or fetched.
+        BundleError: A Python does not exist, or a wheel cannot be built or fetched.
     """
     if ready is not None and not list(ready.glob("turtlewire_class-*.whl")):
         raise BundleError(f"{ready} holds no wheel of turtlewire-class")

@@ -33,10 +33,6 @@ def packages() -> list[Path]:
     )
 
 
-if __name__ == "__main__":
-    print(*import_path(), sep=":")
-
-
 def cache_folder() -> Path:
     """Return ``turtlewire`` below ``$XDG_CACHE_HOME``, which is ``~/.cache`` if it is not set."""
     home = os.environ.get("XDG_CACHE_HOME", "")
@@ -53,3 +49,7 @@ def keep(source: Path, target: Path) -> None:
         fresh.replace(target)
     finally:
         fresh.unlink(missing_ok=True)
+
+
+if __name__ == "__main__":
+    print(*import_path(), sep=":")

@@ -150,7 +150,7 @@ def build(output: Path) -> int:
 
 
 def is_replaceable(output: Path, mark: str) -> bool:
-    """Whether nothing is lost where a folder is built: an older one there has the file `mark`."""
+    """Return True if a folder may be built there: an older one has the file `mark`."""
     if not output.is_dir():
         return not output.exists()
     return (output / mark).exists() or not any(output.iterdir())

@@ -6,16 +6,14 @@ import itertools
 import os
 import re
 import shutil
-import signal
 import struct
-import subprocess
-import sys
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from playwright.sync_api import sync_playwright
+from served_pages import address_of, program, running
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -48,38 +46,13 @@ CHROMIUM_FLAGS = [
 
 def main() -> None:
     """Make both pictures."""
-    domain = str(1 + os.getpid() % 101)
-    bin_dir = Path(sys.executable).parent
-    environment = dict(
-        os.environ,
-        ROS_DOMAIN_ID=domain,
-        TURTLEWIRE_BROWSER="0",
-        PATH=f"{bin_dir}{os.pathsep}{os.environ['PATH']}",
-    )
-    command = ["ros2", "launch", "learning_tf2_py", "turtle_tf2_demo.launch.py"]
-    launch = subprocess.Popen(
-        command,
-        env=environment,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    try:
-        take_pictures(address_in(launch))
-    finally:
-        launch.send_signal(signal.SIGINT)
-        launch.communicate(timeout=20)
-
-
-def address_in(launch: subprocess.Popen[str]) -> str:
-    """Return the page's address once turtle2 exists."""
-    address = ""
-    for line in launch.stdout or ():
-        if found := re.search(r"http://\S+", line):
-            address = found[0]
-        if "Successfully spawned turtle2" in line:
-            return address
+    command = ("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
+    with running(program("ros2"), *command, domain=1 + os.getpid() % 101) as launch:
+        address = address_of(launch)
+        for line in launch.stdout or ():
+            if "Successfully spawned turtle2" in line:
+                take_pictures(address)
+                return
     raise RuntimeError("the launch ended before turtle2 was there")
 
 

@@ -47,7 +47,7 @@ def main() -> int:
     faults = [
         f"{path}:{line}: {fault}"
         for path in listed
-        if path.endswith(".py")
+        if path.endswith(".py") and (ROOT / path).is_file()
         for line, fault in _faults_in(path, names)
     ]
     print("\n".join(faults) if faults else "prose: all docstrings, comments and test names pass")
