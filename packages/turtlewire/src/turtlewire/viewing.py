@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from turtlewire.urdf import Robot
     from turtlewire.urdf.robot import Positions
 
+__all__ = ["Viewer", "show"]
+
 #: The entry point of the function that this one calls. The engine does not import the view, which
 #: is another distribution.
 _GROUP, _NAME = "turtlewire.viewers", "show"

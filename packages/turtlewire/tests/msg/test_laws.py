@@ -26,7 +26,7 @@ from turtlewire.msg.types import (
     NamespacedType,
 )
 
-FEW = settings(max_examples=6, suppress_health_check=list(HealthCheck))
+FEW = settings(max_examples=3, suppress_health_check=list(HealthCheck))
 MANY = settings(max_examples=60, suppress_health_check=list(HealthCheck))
 
 
@@ -223,7 +223,7 @@ def _run_rosbags(all_messages, messages, limits):
 
 
 def test_every_type_that_rosbags_knows_has_its_bytes(all_messages, messages):
-    _run_rosbags(all_messages, messages, settings(FEW, max_examples=3))
+    _run_rosbags(all_messages, messages, FEW)
 
 
 @pytest.mark.slow
