@@ -107,6 +107,8 @@ robot_state_publisher, in Lyrical
   ros2cli/test_doctor.py test_the_report_has_facts
 an integer that 64 bits cannot hold raises `AssertionError`, or `OverflowError` under `-O`, after the checks
   rclpy/test_parameters.py test_integers_that_no_message_can_hold_are_refused
+the end of any node of a name ends the log of all on `/rosout`, as a warning says
+  rclpy/test_logging.py test_two_nodes_of_one_name_share_the_first_sink
 `message_filters` warns of each message without a stamp
   message_filters/test_message_filters.py test_messages_without_a_stamp_are_refused
 Python errors have a message

@@ -304,7 +304,8 @@ class Executor:
         with self._rclpy_scheduler.lock:
             nodes = {index: node for node, index in self._nodes.items()}
         node = None if membership is None else nodes.get(membership.node_index)
-        return handler, source._waitable or source, node
+        entity = source if source._waitable is None else source._waitable
+        return handler, entity, node
 
     def wake(self) -> None:
         """End the current wait, or the next one at once."""

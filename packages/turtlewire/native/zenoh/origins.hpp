@@ -13,7 +13,7 @@
 
 namespace turtlewire::zenoh {
 
-// As turtlewire/wire/zenoh/attachment.py, which says what the members mean.
+// As turtlewire/wire/zenoh/protocol.py, which says what the members mean.
 struct Attachment {
   std::int64_t number;
   std::int64_t sent;

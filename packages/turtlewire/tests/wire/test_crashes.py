@@ -20,7 +20,7 @@ from turtlewire.wire import open_context
 from turtlewire.wire.base import Context, TypeId
 from turtlewire.wire.qos import QoS
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits and signals of POSIX")
+on_posix = pytest.mark.skipif(sys.platform == "win32", reason="limits and signals of POSIX")
 
 OPEN = "from turtlewire.wire import open_context\nopen_context(5).close()\n"
 LIMIT_S = 60
@@ -32,6 +32,7 @@ def run(code: str, **environment: str):
     return run_python(code, check=False, timeout=LIMIT_S, env=os.environ | environment)
 
 
+@on_posix
 @needs_cyclone_dds
 @pytest.mark.parametrize("more", [0, 1, 2, 3, 4, 6, 8, 12, 16, 20])
 def test_few_files_left_is_one_clear_error(more: int):
@@ -55,6 +56,7 @@ def test_few_files_left_is_one_clear_error(more: int):
     assert done.stderr == ""
 
 
+@on_posix
 @needs_cyclone_dds
 def test_the_files_that_were_tried_are_free_again():
     code = (
@@ -67,6 +69,7 @@ def test_the_files_that_were_tried_are_free_again():
     assert len(set(run(code).stdout.split())) == 1
 
 
+@on_posix
 @pytest.mark.skipif(CORE == "python", reason=COMPILED_CORE)
 @pytest.mark.skipif(find_spec("cyclonedds") is None, reason="Cyclone DDS 0.10 does not abort")
 def test_the_last_words_of_cyclone_survive_an_abort():
@@ -76,6 +79,7 @@ def test_the_last_words_of_cyclone_survive_an_abort():
     assert "no.such.host.invalid" in done.stderr
 
 
+@on_posix
 @pytest.mark.skipif(CORE == "python", reason=COMPILED_CORE)
 def test_an_abort_for_another_reason_ends_as_before():
     code = f"{OPEN}import faulthandler, os\nfaulthandler.enable()\nopen_context(5)\nos.abort()\n"
@@ -84,6 +88,7 @@ def test_an_abort_for_another_reason_ends_as_before():
     assert done.stderr.count("Fatal Python error: Aborted") == 1
 
 
+@on_posix
 @needs_cyclone_dds
 def test_threads_that_still_call_survive_the_end_of_the_last_context():
     """Cyclone frees its tables with its last domain, whoever looks into them at that moment."""

@@ -322,7 +322,8 @@ def test_of_equal_stamps_the_cache_forgets_what_came_first():
     assert [message.point.x for message in cache.cache_msgs] == [5.0, 3.0, 4.0]
 
 
-def test_the_cache_and_messages_without_a_stamp(capfd):
+def test_the_cache_and_messages_without_a_stamp(capfd, monkeypatch):
+    monkeypatch.setattr("message_filters.cache._LOGGER", get_logger("tested_cache"))
     cache = Cache()
     for _ in range(3):
         cache.add(String())

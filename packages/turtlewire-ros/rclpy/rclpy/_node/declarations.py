@@ -182,17 +182,17 @@ def refusal(
 
 def _integer_refusal(parameter: Parameter, ranges: Sequence[IntegerRange]) -> str:
     value, is_array = parameter.value, parameter.type_ is Parameter.Type.INTEGER_ARRAY
-    if not all(_INT64_MIN <= each <= _INT64_MAX for each in (value if is_array else [value])):
-        return _out_of_range(parameter, _INT64_MIN, _INT64_MAX)
     if is_array or not ranges:
-        return ""
+        numbers = value if is_array else [value]
+        large = next((each for each in numbers if not _INT64_MIN <= each <= _INT64_MAX), None)
+        return "" if large is None else _out_of_range(parameter.name, large, _INT64_MIN, _INT64_MAX)
     # As in ROS 2, the limits come in either order, and both ends are valid even if the step does
     # not reach the upper one.
     low, high = sorted((ranges[0].from_value, ranges[0].to_value))
     if value in {low, high}:
         return ""
     if not low < value < high:
-        return _out_of_range(parameter, low, high)
+        return _out_of_range(parameter.name, value, low, high)
     if ranges[0].step and (value - low) % ranges[0].step:
         return _off_step(parameter, low, high, ranges[0].step)
     return ""
@@ -204,7 +204,7 @@ def _double_refusal(parameter: Parameter, limits: FloatingPointRange) -> str:
     if _is_close(value, low) or _is_close(value, high):
         return ""
     if not low < value < high:
-        return _out_of_range(parameter, low, high)
+        return _out_of_range(parameter.name, value, low, high)
     if limits.step and not _is_on_step(value, low, limits.step):
         return _off_step(parameter, low, high, limits.step)
     return ""
@@ -221,11 +221,8 @@ def _is_close(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=_REL_TOL)
 
 
-def _out_of_range(parameter: Parameter, low: float, high: float) -> str:
-    return (
-        f"Parameter {parameter.name} out of range. Min: {low}, Max: {high}, value: "
-        f"{parameter.value}"
-    )
+def _out_of_range(name: str, value: float, low: float, high: float) -> str:
+    return f"Parameter {name} out of range. Min: {low}, Max: {high}, value: {value}"
 
 
 def _off_step(parameter: Parameter, low: float, high: float, step: float) -> str:

@@ -236,6 +236,7 @@ class OwnEndpoints:
         service_class: type[Service] = Service,
     ) -> Service:
         """Return a service that the caller owns."""
+        check_is_valid_srv_type(srv_type)
         check_callable(callback)
         with closed_on_error(self.announce("service", srv_type, srv_name, qos_profile)) as impl:
             return service_class(

@@ -1,5 +1,8 @@
 """init, ok, shutdown and contexts."""
 
+import math
+import threading
+
 import pytest
 from tests.needs import needs_cyclone_dds
 from tests.programs import run_python
@@ -194,6 +197,17 @@ def test_a_shutdown_callback_that_raises_does_not_stop_the_shutdown():
     with pytest.raises(WireError, match="closed"):
         context.wire.create_node("late")
     del publisher
+
+
+def test_shutdown_ends_a_wait_for_the_graph():
+    rclpy.init(args=[])
+    node = Node("waiting")
+    ending = threading.Timer(0.05, rclpy.shutdown)
+    ending.start()
+    with pytest.raises(RCLError, match="rcl node's context is invalid"):
+        node.wait_for_node("/nobody", math.inf)
+    ending.join()
+    assert not rclpy.ok()
 
 
 def test_the_global_executor_belongs_to_the_default_context():

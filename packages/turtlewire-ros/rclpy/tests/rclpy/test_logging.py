@@ -176,6 +176,10 @@ def test_once_and_skip_first_belong_to_the_line(logger, capfd):
     ]
 
 
+def test_a_logger_says_if_it_wrote_a_line(logger):
+    assert [logger.info("x", once=True) for _ in range(2)] == [True, False]
+
+
 class SettableClock(Clock):
     """A steady clock that shows what the test says."""
 

@@ -273,7 +273,7 @@ def test_overrides_of_the_command_line_and_the_constructor(context):
         "-p",
         "b:=6",
         "-p",
-        "c:=[1,2]",
+        "c:=[1, 2]",
     ]
     node = Node(
         "original",

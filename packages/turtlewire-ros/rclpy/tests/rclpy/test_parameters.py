@@ -354,8 +354,14 @@ def test_integer_ranges(parameters, value, text):
 def test_integers_that_no_message_can_hold_are_refused(parameters, value, is_refused):
     text = f"Parameter a out of range. Min: {-(2**63)}, Max: {2**63 - 1}, value: "
     parameters.declare_parameters("", [("a", 1), ("aa", [1])])
+    limits = ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10)])
+    parameters.declare_parameter("ranged", 1, limits)
+    refused = f"Parameter ranged out of range. Min: 0, Max: 10, value: {value}"
+    assert reason(parameters, "ranged", value) == refused
     assert reason(parameters, "a", value).startswith(text) == is_refused
-    assert (reason(parameters, "aa", [0, value]) != "") == is_refused
+    assert reason(parameters, "aa", [0, value]) == (
+        text.replace(" a ", " aa ") + str(value) if is_refused else ""
+    )
     if is_refused:
         with pytest.raises(exceptions.InvalidParameterValueException, match="out of range"):
             parameters.declare_parameter("b", value)

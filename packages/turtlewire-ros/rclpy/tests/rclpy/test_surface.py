@@ -334,3 +334,24 @@ def test_bases_of_interfaces_for_annotations():
     kinds = {String: Msg, Empty: Srv, Fibonacci: Action}
     for interface, kind in kinds.items():
         assert [each for each in (Msg, Srv, Action) if issubclass(interface, each)] == [kind]
+
+
+def test_callbacks_of_parameter_events():
+    from rcl_interfaces.msg import Parameter, ParameterEvent
+    from rclpy.parameter_event_handler import (
+        ParameterCallbackHandle,
+        ParameterEventCallbackHandle,
+        ParameterEventHandler,
+    )
+
+    called = []
+    callbacks = ParameterEventHandler.Callbacks()
+    for name in ("a", "b"):
+        handle = ParameterCallbackHandle(name, "/n", lambda message: called.append(message.name))
+        callbacks.parameter_callbacks.append(handle)
+    callbacks.event_callbacks.append(ParameterEventCallbackHandle(called.append))
+    event = ParameterEvent(node="/n", changed_parameters=[Parameter(name="b")])
+    callbacks.event_callback(event)
+    assert called == ["b", event]
+    callbacks.event_callback(b"raw")
+    assert called == ["b", event, b"raw"]

@@ -45,6 +45,7 @@ def drain(executor):
             id="missed periods are skipped and the rhythm is kept",
         ),
         pytest.param([1299], [1299], 1, id="a period that ends soon is not missed"),
+        pytest.param([1299, 1300], [1299, 1300], 100, id="it ends in a call of its own"),
         pytest.param([1300], [1300, 1300], 100, id="nor is one that ends now"),
         pytest.param([1130, 1199, 1200], [1130, 1200], 100, id="a late call moves no other"),
         pytest.param([1100, 500, 599, 600], [1100, 600], 100, id="back behind the last call"),

@@ -156,7 +156,8 @@ class PosixKeyboard:
         try:
             yield
         finally:
-            signal.set_wakeup_fd(former)
+            with contextlib.suppress(OSError, ValueError):  # a handler may have closed it
+                signal.set_wakeup_fd(former)
 
 
 @contextlib.contextmanager

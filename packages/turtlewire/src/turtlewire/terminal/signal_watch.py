@@ -39,7 +39,8 @@ def watched(numbers: Collection[int], act: Callable[[], object]) -> Iterator[Non
             yield
         finally:
             if former is not None:
-                signal.set_wakeup_fd(former)
+                with contextlib.suppress(OSError, ValueError):  # its owner may have closed it
+                    signal.set_wakeup_fd(former)
             wakeup.close()
             if watcher.ident is not None:
                 watcher.join()

@@ -150,6 +150,14 @@ def _size_shared_memory(configuration: zenoh.Config) -> None:
         configuration.insert_json5(path, str(size))
 
 
+def _endpoint(peer: str) -> str:
+    """Return the locator of a static peer."""
+    if peer.startswith("["):  # an IPv6 address, which Zenoh checks
+        return f"tcp/{peer}" if "]:" in peer else f"tcp/{peer}:{ROUTER_PORT}"
+    host, port = environment.split_peer(peer)
+    return f"tcp/{host}:{port or ROUTER_PORT}"
+
+
 def _session() -> dict[str, Any]:
     discovery = environment.discovery()
     on_loopback = discovery.range is Range.LOCALHOST
@@ -158,10 +166,7 @@ def _session() -> dict[str, Any]:
     # With SUBNET, the user has asked for peers on other hosts.
     address = "127.0.0.1" if on_loopback or alone else "0.0.0.0"  # noqa: S104
     routers = [] if alone else [f"tcp/127.0.0.1:{ROUTER_PORT}"]
-    peers = [
-        f"tcp/{host}:{port or ROUTER_PORT}"
-        for host, port in map(environment.split_peer, discovery.asked_peers)
-    ]
+    peers = [_endpoint(peer) for peer in discovery.asked_peers]
     to_peers = {"router": [], "peer": _PEERS_AND_ROUTERS}
     return {
         "mode": "peer",
