@@ -1,4 +1,4 @@
-"""`tools/public_public_surface.py`: what the next release would break, in small checkouts."""
+"""`tools/public_surface.py`: what the next release would break, in small checkouts."""
 
 import subprocess
 

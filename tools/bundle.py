@@ -42,7 +42,7 @@ def main() -> int:
     arguments = parser.parse_args()
     try:
         make(arguments.output, arguments.python or [sys.executable], arguments.wheels)
-    except BundleError as error:
+    except (BundleError, OSError) as error:
         print(f"[bundle] {error}", file=sys.stderr)
         return 1
     return 0
@@ -60,15 +60,15 @@ def make(output: Path, pythons: list[str], ready: Path | None) -> None:
         if shutil.which(python) is None:
             raise BundleError(f"there is no program {python}")
     bundle = output / NAME
-    shutil.rmtree(bundle, ignore_errors=True)
-    wheels = bundle / "wheels"
-    wheels.mkdir(parents=True)
-    if ready is not None:
-        for wheel in ready.glob("*.whl"):
-            shutil.copy(wheel, wheels)
-    else:
-        for python in pythons:
-            collect(python, wheels)
+    with tempfile.TemporaryDirectory() as scratch:
+        wheels = ready or Path(scratch)
+        if ready is None:
+            for python in pythons:
+                collect(python, wheels)
+        shutil.rmtree(bundle, ignore_errors=True)
+        (bundle / "wheels").mkdir(parents=True)
+        for wheel in wheels.glob("*.whl"):
+            shutil.copy(wheel, bundle / "wheels")
     for path in FILES.iterdir():
         shutil.copy(path, bundle)
     shutil.copytree(ROOT / "docs", bundle / "docs", ignore=shutil.ignore_patterns("style.md"))

@@ -118,7 +118,7 @@ def _add_output(parser: argparse.ArgumentParser, name: str) -> None:
 
 
 def _port(text: str) -> int:
-    if not (text.isdecimal() and int(text) < 65536):
+    if not (text.isdecimal() and len(text) < 6 and int(text) < 65536):
         raise argparse.ArgumentTypeError(f"{text} is not a port; give a number from 0 to 65535")
     return int(text)
 

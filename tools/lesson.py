@@ -152,7 +152,8 @@ def build(output: Path) -> int:
 def is_replaceable(output: Path, mark: str) -> bool:
     """Return True if a folder may be built there: an older one has the file `mark`."""
     if not output.is_dir():
-        return not output.exists()
+        around = next(folder for folder in output.absolute().parents if folder.exists())
+        return not output.exists() and around.is_dir()
     return (output / mark).exists() or not any(output.iterdir())
 
 

@@ -257,7 +257,7 @@ class Display:
         self._warnings.append(text)
 
     def _keep(self, content: Content, most: float) -> list[Output]:
-        """Return the content as a new part, without the oldest ones of more than ``most``."""
+        """Return the content as a new part, and remove the oldest parts beyond ``most``."""
         part = str(next(self._numbers))
         self._parts.append(part)
         outputs: list[Output] = [replace(content, part=part)]
