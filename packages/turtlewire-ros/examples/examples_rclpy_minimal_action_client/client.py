@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import rclpy
@@ -36,16 +35,12 @@ class MinimalActionClient(Node):
         future.add_done_callback(self.goal_response_callback)
 
     def goal_response_callback(self, future: Future[Any]) -> None:
-        """Go on if the goal was accepted."""
+        """Ask for the result if the goal was accepted."""
         goal_handle = future.result()
         if not goal_handle.accepted:
             self.get_logger().info("Goal rejected :(")
             return
         self.get_logger().info("Goal accepted :)")
-        self.follow(goal_handle)
-
-    def follow(self, goal_handle: Any) -> None:
-        """Ask for the result."""
         goal_handle.get_result_async().add_done_callback(self.get_result_callback)
 
     def feedback_callback(self, feedback: Any) -> None:
@@ -59,18 +54,13 @@ class MinimalActionClient(Node):
             self.get_logger().info(f"Goal succeeded! Result: {answer.result.sequence}")
         else:
             self.get_logger().info(f"Goal failed with status: {answer.status}")
-        # Lets `rclpy.spin` return.
+        # Lets `rclpy.spin` in `main` return.
         rclpy.shutdown()
-
-
-def send(make_client: Callable[[], MinimalActionClient], args: list[str] | None) -> None:
-    """Make a client, send its goal and spin it until it shuts down."""
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
-        node = make_client()
-        node.send_goal()
-        rclpy.spin(node)
 
 
 def main(args: list[str] | None = None) -> None:
     """Send one goal and wait for its result."""
-    send(MinimalActionClient, args)
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+        node = MinimalActionClient()
+        node.send_goal()
+        rclpy.spin(node)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from demo_nodes_py.spin import profile, run_cycles
-from demo_nodes_py.topics.listener import Listener
+from demo_nodes_py.topics.qos_options import profile, run_cycles
+from rclpy.node import Node
+from std_msgs.msg import String
 
 
-class ListenerQos(Listener):
+class ListenerQos(Node):
     """Logs each greeting.
 
     Args:
@@ -15,8 +16,12 @@ class ListenerQos(Listener):
     """
 
     def __init__(self, reliable: bool) -> None:
-        super().__init__("listener_qos", profile(reliable=reliable))
+        super().__init__("listener_qos")
         self.get_logger().info("Reliable listener" if reliable else "Best effort listener")
+        self.create_subscription(String, "chatter", self._hear, profile(reliable=reliable))
+
+    def _hear(self, message: String) -> None:
+        self.get_logger().info(f"I heard: [{message.data}]")
 
 
 def main(args: list[str] | None = None) -> None:

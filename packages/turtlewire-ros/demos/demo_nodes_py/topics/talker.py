@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from demo_nodes_py.spin import spin
 from rclpy.node import Node
 from std_msgs.msg import String
-
-if TYPE_CHECKING:
-    from rclpy.qos import QoSProfile
 
 
 class Talker(Node):
     """Publishes a counted greeting every second."""
 
-    def __init__(self, name: str = "talker", qos: QoSProfile | int = 10) -> None:
-        super().__init__(name)
+    def __init__(self) -> None:
+        super().__init__("talker")
         self._count = 0
-        self._publisher = self.create_publisher(String, "chatter", qos)
+        self._publisher = self.create_publisher(String, "chatter", 10)
         self.create_timer(1.0, self._talk)
 
     def _talk(self) -> None:

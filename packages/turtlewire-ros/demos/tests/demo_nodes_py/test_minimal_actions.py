@@ -15,7 +15,6 @@ import rclpy
 from action_msgs.msg import GoalStatus
 from example_interfaces.action import Fibonacci
 from examples_rclpy_minimal_action_server import (
-    server,
     server_defer,
     server_queue_goals,
     server_single_goal,
@@ -50,7 +49,7 @@ class Rig:
             def create_timer(self, _seconds, callback):
                 return super().create_timer(0.01, lambda: rig.go.wait(60) and callback())
 
-        monkeypatch.setattr(server, "time", SimpleNamespace(sleep=self.sleep))
+        monkeypatch.setattr(module, "time", SimpleNamespace(sleep=self.sleep))
         self.server = Server()
         self.client = ActionClient(self.server, Fibonacci, "fibonacci")
 
