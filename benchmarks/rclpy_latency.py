@@ -13,7 +13,6 @@ from collections.abc import Iterator
 from typing import Any
 
 from benchmarks.figures import Figure, Row, on_loopback
-from benchmarks.rivals.rclpy_programs import make_node
 
 TITLE = "rclpy: publish to callback, two processes, std_msgs/String at 1 kHz"
 TOPIC, TYPE_NAME = "/latency", "std_msgs/msg/String"
@@ -81,6 +80,7 @@ class Record:
 
 def rclpy_send() -> None:
     import rclpy
+    from benchmarks.rivals.rclpy_programs import make_node
     from std_msgs.msg import String
 
     node = make_node("sender")
@@ -94,6 +94,7 @@ def rclpy_send() -> None:
 
 def rclpy_receive() -> None:
     import rclpy
+    from benchmarks.rivals.rclpy_programs import make_node
     from std_msgs.msg import String
 
     node, record, done = make_node("receiver"), Record(), rclpy.task.Future()

@@ -167,6 +167,7 @@ for _message_type, _do_transform in (
     tf2_ros.TransformRegistration().add(_message_type, _do_transform)
     tf2_ros.ConvertRegistration().add_to_msg(_message_type, to_msg_msg)
     tf2_ros.ConvertRegistration().add_from_msg(_message_type, from_msg_msg)
+del _message_type, _do_transform
 
 
 #: Messages that ROS 2's package has because it imports them; programs take them from here.

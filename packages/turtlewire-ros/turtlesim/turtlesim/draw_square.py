@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import rclpy
 from geometry_msgs.msg import Twist
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_srvs.srv import Empty
@@ -129,7 +130,9 @@ class DrawSquare(Node):
 
 def main(args: list[str] | None = None) -> None:
     """Run until Ctrl-C."""
-    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+    # RCLError: SIGTERM while it waits for the simulator makes the context of the wait invalid.
+    ended = contextlib.suppress(KeyboardInterrupt, ExternalShutdownException, RCLError)
+    with ended, rclpy.init(args=args):
         node = DrawSquare()
         node.reset_and_start()
         rclpy.spin(node)

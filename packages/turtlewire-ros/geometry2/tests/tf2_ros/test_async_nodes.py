@@ -4,6 +4,7 @@ import asyncio
 
 import pytest
 
+from rclpy.duration import Duration
 from rclpy.experimental import AsyncNode
 from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
@@ -11,6 +12,7 @@ from tf2_ros import (
     Buffer,
     StaticTransformBroadcaster,
     TransformBroadcaster,
+    TransformException,
     TransformListener,
 )
 
@@ -38,6 +40,17 @@ def test_a_lookup_is_awaited(monkeypatch, stamped, middleware):
 
     with Context() as context:
         assert run(main(context)) == 2.5
+
+
+async def test_a_lookup_is_cancelled(context):
+    async with AsyncNode("tested", context=context) as node:
+        buffer = Buffer()
+        TransformListener(buffer, node)
+        with pytest.raises(asyncio.TimeoutError):
+            await asyncio.wait_for(buffer.lookup_transform_async("a", "b", Time()), 0.01)
+        limit = Duration(nanoseconds=1)
+        with pytest.raises(TransformException):
+            await buffer.lookup_transform_async("a", "b", Time(), timeout=limit)
 
 
 async def test_the_listener_ends_with_its_node(context, make_node):

@@ -217,6 +217,16 @@ def test_no_turtle_ever_leaves_the_field(commands, theta, x, y):
             assert tick.pose.angular_velocity == turning
 
 
+@given(speeds, speeds)
+def test_the_same_commands_give_the_same_bits(forward, turning):
+    def poses():
+        world = World()
+        world.spawn_centred().drive(forward, 0.0, turning)
+        return [tick.pose for (tick,) in run(world, 70)]
+
+    assert poses() == poses()
+
+
 @given(st.floats(0.1, 3.0), st.floats(-3.0, 3.0))
 def test_strokes_join_where_the_turtle_went(forward, turning):
     world = World()

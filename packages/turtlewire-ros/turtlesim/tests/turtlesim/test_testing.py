@@ -59,6 +59,14 @@ def test_time_moves_only_in_steps(simulation):
     assert simulation.now == pytest.approx(1.04)  # 62 ticks
 
 
+def test_a_command_lasts_as_in_the_real_one(simulation):
+    start = simulation.pose("turtle1").x
+    simulation.drive("turtle1", linear=2.0)
+    simulation.run(3.0)
+    assert simulation.pose("turtle1").x == pytest.approx(start + 63 * 0.032)
+    assert simulation.distance("turtle1", "turtle1") == 0.0
+
+
 def test_run_until_stops_at_the_first_tick_or_at_the_limit(simulation):
     simulation.drive("turtle1", linear=2.0)
     assert simulation.run_until(lambda: simulation.pose("turtle1").x > 6.0, within=5.0)

@@ -158,6 +158,15 @@ def test_sigterm_ends_it_too(ear):
     assert "Traceback" not in simulator.output
 
 
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM])
+def test_a_program_that_waits_for_the_simulator_ends_cleanly(ear, end):
+    waiting = Process("turtlesim.draw_square")
+    ear.spin_until(lambda: "draw_square" in ear.node.get_node_names())
+    waiting.popen.send_signal(end)
+    assert waiting.join() == 0
+    assert "Traceback" not in waiting.output
+
+
 def test_the_page_drives_the_turtle_on_its_topic(ear):
     simulator = Process("turtlesim.turtlesim_node")
     try:

@@ -118,7 +118,7 @@ export function rateInWords(rate) {
 }
 
 /** 512 B/s, 1.2 kB/s, 30 MB/s. */
-export function bandwidthInWords(bytes) {
+function bandwidthInWords(bytes) {
   const units = ["B/s", "kB/s", "MB/s", "GB/s"];
   const power = Math.min(3, Math.max(0, Math.floor(Math.log10(Math.max(bytes, 1)) / 3)));
   const number = bytes / 1000 ** power;
@@ -126,7 +126,7 @@ export function bandwidthInWords(bytes) {
 }
 
 /** Only what is not as in ROS 2's default profile stands behind the first two. */
-export function qosInWords(qos) {
+function qosInWords(qos) {
   const words = [qos.reliability, qos.durability].map((word) => word.replaceAll("_", " "));
   words.push(qos.depth === null ? qos.history.replaceAll("_", " ") : `depth ${qos.depth}`);
   if (qos.deadline_ns) words.push(`deadline ${qos.deadline_ns / 1e9} s`);
