@@ -214,7 +214,8 @@ def _progress(recorder: BagRecorder, recording: Recording, seconds: float) -> st
 
 def _report_lost(recording: Recording) -> None:
     for topic, (count, reason) in recording.refused.items():
-        text = f"{count} messages of {topic} were not recorded: {reason}"
+        messages = "message was" if count == 1 else "messages were"
+        text = f"{topic}: {count} {messages} not recorded: {reason}"
         get_logger("rosbag2_cpp").warning(printable(text))
     if recording.lost:
         lines = "".join(f"\n\t{topic}: {count}" for topic, count in recording.lost.items())

@@ -503,6 +503,19 @@ def test_a_damaged_message_is_named_and_the_others_are_read(tmp_path):
     assert len(messages) == 110
 
 
+def test_a_row_without_data_is_an_empty_message(tmp_path):
+    folder = write_bag(tmp_path / "made", storage="sqlite3")
+    (path,) = folder.glob("*.db3")
+    with contextlib.closing(sqlite3.connect(path)) as database, database:
+        database.execute("PRAGMA writable_schema = ON")
+        database.execute("UPDATE sqlite_schema SET sql = replace(sql, 'BLOB NOT NULL', 'BLOB')")
+    with contextlib.closing(sqlite3.connect(path)) as database, database:
+        database.execute("UPDATE messages SET data = NULL WHERE id = 50")
+    with open_bag(folder) as bag:
+        assert sum(message.data == b"" for message in bag) == 1
+    assert sum(topic.count for topic in describe_bag(folder).topics) == 111
+
+
 def test_a_message_that_only_the_metadata_tells_of(tmp_path):
     """Such a file has neither a summary nor checksums: metadata.yaml alone knows the number."""
     folder = shutil.copytree(GOLDEN / "real" / "g_mcap_fastwrite", tmp_path / "copy")

@@ -114,3 +114,24 @@ def test_a_sender_with_a_wrong_clock_is_recorded(tmp_path, sent_ns):
     with open_bag(tmp_path / "bag") as bag:
         (message,) = bag
     assert message.publish_time_ns == (5 if sent_ns == 5 else 7)
+
+
+@pytest.mark.parametrize("snapshot", [False, True])
+def test_a_recording_whose_bag_cannot_begin_another_file_ends_quietly(
+    tmp_path, monkeypatch, snapshot
+):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    recording = Recording(BagWriter(tmp_path / "bag"), snapshot=snapshot)
+    recording.add_topic("/a", "std_msgs/msg/String")
+    monkeypatch.setattr(BagWriter, "_open_file", full)
+    with pytest.raises(OSError, match="No space left"):
+        recording.split()
+    if snapshot:
+        recording.write("/a", bytes(8), 1)
+        assert not recording.take_snapshot()
+    recording.close()
+    assert "No space left" in str(recording.failure)
+    assert recording.lost == ({"/a": 1} if snapshot else {})
+    assert recording.refused == {}

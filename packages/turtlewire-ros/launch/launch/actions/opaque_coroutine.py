@@ -55,7 +55,9 @@ class OpaqueCoroutine(Action):
         def cancel(*_: object) -> None:
             task.cancel()
 
-        context.register_event_handler(OnShutdown(on_shutdown=cancel))
+        end = OnShutdown(on_shutdown=cancel)
+        context.register_event_handler(end)
+        task.add_done_callback(lambda _: context.unregister_event_handler(end))
         self._future = task
 
     def get_asyncio_future(self) -> asyncio.Task[None] | None:

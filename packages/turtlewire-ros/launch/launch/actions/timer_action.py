@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -72,6 +73,7 @@ class TimerAction(Action):
         self._completed: asyncio.Future[None] | None = None
         # An action of an event handler is visited at each event.
         self._timers: dict[asyncio.Future[None], Any] = {}
+        self._own_events: weakref.WeakSet[TimerEvent] = weakref.WeakSet()
         self._canceled = False
         self._logger = logging.get_logger("launch.timer_action")
 
@@ -108,9 +110,14 @@ class TimerAction(Action):
         if self._canceled or context.is_shutdown:
             return
         event, completed = TimerEvent(timer_action=self), context.asyncio_loop.create_future()
-        due = EventHandler(
-            matcher=lambda each: each is event, entities=self._later(context), handle_once=True
-        )
+        self._own_events.add(event)
+
+        def is_due(each: Event) -> bool:
+            # Programs may emit a timer's event themselves, before its time.
+            is_ours = isinstance(each, TimerEvent) and each.timer_action is self
+            return each is event or (is_ours and each not in self._own_events)
+
+        due = EventHandler(matcher=is_due, entities=self._later(context), handle_once=True)
         end = OnShutdown(on_shutdown=self._on_shutdown)
         for handler in (due, end):
             context.register_event_handler(handler)
@@ -138,9 +145,10 @@ class TimerAction(Action):
         scope = _beginning_of_scope(context) if context.configuration_scopes.depth else []
 
         def actions(_event: Event, later: LaunchContext) -> list[LaunchDescriptionEntity]:
+            entities = self.handle(later)
             later.extend_locals(values)
             end = [PopEnvironment(), PopLaunchConfigurations()] if scope else []
-            return [*scope, *self.handle(later), *end]
+            return [*scope, *entities, *end]
 
         return actions
 

@@ -145,11 +145,12 @@ def _for_another_thread(
 
     @functools.wraps(function)
     def run(*args: _Arguments.args, **kwargs: _Arguments.kwargs) -> _Result:
+        coroutine = function(*args, **kwargs)  # refuses wrong arguments
         context: Any = args[0] if args else kwargs["launch_context"]
         loop = context.asyncio_loop
         if loop is None:  # the launch has ended: the coroutine does not wait
-            return asyncio.run(function(*args, **kwargs))
-        return asyncio.run_coroutine_threadsafe(function(*args, **kwargs), loop).result()
+            return asyncio.run(coroutine)
+        return asyncio.run_coroutine_threadsafe(coroutine, loop).result()
 
     run.__name__ = run.__qualname__ = f"{function.__name__}_sync"
     run.__doc__ = f":func:`{function.__name__}` for another thread."

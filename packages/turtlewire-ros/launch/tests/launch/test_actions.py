@@ -40,6 +40,7 @@ from launch.conditions import (
 )
 from launch.event_handlers import OnShutdown
 from launch.events import Shutdown as ShutdownEvent
+from launch.events import TimerEvent
 from launch.substitutions import (
     EnvironmentVariable,
     LaunchConfiguration,
@@ -314,6 +315,11 @@ def test_each_visit_of_a_timer_has_its_own_time_and_values(launch):
 def test_the_end_cancels_each_visit_of_a_timer(launch):
     timer = TimerAction(period=100.0, actions=[LogInfo(msg="never")])
     assert launch(timer, timer, TimerAction(period=0.0, actions=[Shutdown()])).messages == []
+
+
+def test_a_program_may_emit_the_event_of_a_timer(launch):
+    timer = TimerAction(period=100.0, actions=[LogInfo(msg="early"), Shutdown()])
+    assert launch(timer, EmitEvent(event=TimerEvent(timer_action=timer))).messages == ["early"]
 
 
 def test_the_end_cancels_timers_unless_told_otherwise(launch):

@@ -368,5 +368,5 @@ def print_description(description: LaunchDescription) -> int:
     return 0
 
 
-class LaunchCommand(ModuleCommand):
+class LaunchCommand(ModuleCommand, module=__name__):
     """Run a launch file."""

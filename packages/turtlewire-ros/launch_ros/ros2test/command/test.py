@@ -61,5 +61,5 @@ def main(args: argparse.Namespace) -> int:
         return run(args.parser, args, LaunchTestRunner)
 
 
-class TestCommand(ModuleCommand):
+class TestCommand(ModuleCommand, module=__name__):
     """Run a launch test in its own domain."""

@@ -171,5 +171,5 @@ def _say_that_nothing_is_published(action: str, interfaces: list[ActionInterface
     )
 
 
-class EchoVerb(VerbExtension):
+class EchoVerb(VerbExtension, module=__name__):
     """Show the goals, results, feedback and states of an action."""

@@ -29,5 +29,5 @@ def main(args: argparse.Namespace) -> None:
     print_names_of_type(found, args.action_type, "action", args)
 
 
-class FindVerb(VerbExtension):
+class FindVerb(VerbExtension, module=__name__):
     """List the actions of a type."""

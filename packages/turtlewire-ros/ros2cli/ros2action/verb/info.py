@@ -59,5 +59,5 @@ def _print_json(found: dict[str, NamesAndTypes], args: argparse.Namespace) -> No
     print_json(data)
 
 
-class InfoVerb(VerbExtension):
+class InfoVerb(VerbExtension, module=__name__):
     """Show who offers and may start an action."""

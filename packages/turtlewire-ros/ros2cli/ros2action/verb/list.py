@@ -21,5 +21,5 @@ def main(args: argparse.Namespace) -> None:
     print_names_and_types("action", found, args)
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List the actions."""

@@ -215,5 +215,5 @@ def _status_name(status: int) -> str:
     return names.get(status, "UNKNOWN")
 
 
-class SendGoalVerb(VerbExtension):
+class SendGoalVerb(VerbExtension, module=__name__):
     """Start an action and wait for its end."""

@@ -28,5 +28,5 @@ def main(args: argparse.Namespace) -> int:
     return print_types("action", args.action_name, known)
 
 
-class TypeVerb(VerbExtension):
+class TypeVerb(VerbExtension, module=__name__):
     """Show the type of an action."""

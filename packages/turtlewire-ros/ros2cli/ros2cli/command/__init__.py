@@ -125,7 +125,13 @@ class CommandExtension:
 
 
 class ModuleCommand(CommandExtension):
-    """Base of commands whose module has a ``VERB_GROUP``, or ``ARGUMENTS`` and ``main``."""
+    """Base of commands whose ``module`` has a ``VERB_GROUP``, or ``ARGUMENTS`` and ``main``."""
+
+    _module = ""
+
+    def __init_subclass__(cls, module: str = "", **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        cls._module = module or cls._module
 
     def add_arguments(
         self, parser: argparse.ArgumentParser, cli_name: str, *, argv: list[str] | None = None
@@ -133,7 +139,7 @@ class ModuleCommand(CommandExtension):
         """Define the command line, with that of the verb in ``argv``."""
         from ros2cli.main import define
 
-        define(parser, cli_name, argv or [], type(self).__module__)
+        define(parser, cli_name, argv or [], self._module)
 
     def main(self, *, parser: argparse.ArgumentParser, args: Any) -> Any:
         """Run the command; prints the help and returns 0 if a verb is missing."""

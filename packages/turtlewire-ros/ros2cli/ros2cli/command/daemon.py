@@ -5,5 +5,5 @@ from ros2cli.command import ModuleCommand
 VERB_GROUP = "ros2cli.daemon.verb"
 
 
-class DaemonCommand(ModuleCommand):
+class DaemonCommand(ModuleCommand, module=__name__):
     """Start and stop the daemon, which verbs do not need."""

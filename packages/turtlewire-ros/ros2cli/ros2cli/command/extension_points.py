@@ -35,7 +35,7 @@ def _print(args: argparse.Namespace, name: str, description: str, module: str) -
         print(f"  module: {module}")
 
 
-class ExtensionPointsCommand(ModuleCommand):
+class ExtensionPointsCommand(ModuleCommand, module=__name__):
     """List the kinds of commands and verbs."""
 
     def print_extension_point(self, args: argparse.Namespace, name: str, entry_point: Any) -> None:

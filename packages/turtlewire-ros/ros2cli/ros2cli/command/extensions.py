@@ -36,7 +36,7 @@ def _print(args: argparse.Namespace, name: str, summary: str, module: str) -> No
         print(f"    module: {module}")
 
 
-class ExtensionsCommand(ModuleCommand):
+class ExtensionsCommand(ModuleCommand, module=__name__):
     """List all commands and verbs."""
 
     def print_entry_point(self, args: argparse.Namespace, dist: Any, entry_point: Any) -> None:

@@ -25,11 +25,17 @@ __all__ = [
 class VerbExtension:
     """Base of all verbs; the first line of a verb's documentation is its line in the help.
 
-    A verb has its own `add_arguments` and `main`, or its module has ``ARGUMENTS`` and ``main``.
+    A verb has its own `add_arguments` and `main`, or is defined with the name of a ``module`` that
+    has ``ARGUMENTS`` and ``main``.
     """
 
     NAME: str | None = None
     EXTENSION_POINT_VERSION = "0.1"
+    _module = ""
+
+    def __init_subclass__(cls, module: str = "", **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        cls._module = module or cls._module
 
     def __init__(self) -> None:
         satisfies_version(PLUGIN_SYSTEM_VERSION, f"^{self.EXTENSION_POINT_VERSION}")
@@ -43,7 +49,7 @@ class VerbExtension:
         """
         from ros2cli import arguments
 
-        module = sys.modules[type(self).__module__]
+        module = sys.modules.get(self._module)
         arguments.add_arguments(parser, getattr(module, "ARGUMENTS", ()))
 
     def main(self, *, args: Any) -> Any:
@@ -52,7 +58,9 @@ class VerbExtension:
         Returns:
             The exit status, the text of an error, or None.
         """
-        return sys.modules[type(self).__module__].main(args)
+        if not self._module:
+            raise NotImplementedError
+        return sys.modules[self._module].main(args)
 
 
 def get_verb_extensions(name: str) -> dict[str, Any]:

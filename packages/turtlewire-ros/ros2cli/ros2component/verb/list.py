@@ -60,5 +60,5 @@ def main(args: argparse.Namespace) -> int:
     return status
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List the containers and the nodes in them."""

@@ -47,5 +47,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class LoadVerb(VerbExtension):
+class LoadVerb(VerbExtension, module=__name__):
     """Load a node into a container."""

@@ -39,5 +39,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class StandaloneVerb(VerbExtension):
+class StandaloneVerb(VerbExtension, module=__name__):
     """Run a node in its own container."""

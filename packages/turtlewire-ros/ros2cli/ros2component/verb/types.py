@@ -34,5 +34,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class TypesVerb(VerbExtension):
+class TypesVerb(VerbExtension, module=__name__):
     """List the components that packages have registered."""

@@ -40,5 +40,5 @@ def main(args: argparse.Namespace) -> int:
     return status
 
 
-class UnloadVerb(VerbExtension):
+class UnloadVerb(VerbExtension, module=__name__):
     """Unload a node from a container."""

@@ -71,7 +71,7 @@ def main(args: argparse.Namespace) -> int:
     return 1 if failed or count else 0
 
 
-class DoctorCommand(ModuleCommand):
+class DoctorCommand(ModuleCommand, module=__name__):
     """Look for what is wrong with the setup and the traffic."""
 
 

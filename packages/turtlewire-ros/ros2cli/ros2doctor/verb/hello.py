@@ -74,7 +74,7 @@ def main(args: argparse.Namespace) -> None:
     HelloVerb().main(args=args)
 
 
-class HelloVerb(VerbExtension):
+class HelloVerb(VerbExtension, module=__name__):
     """Find out which hosts can hear each other."""
 
     def main(self, *, args: Any, summary_table: SummaryTable | None = None) -> None:

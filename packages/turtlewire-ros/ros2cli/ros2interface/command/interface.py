@@ -5,5 +5,5 @@ from ros2cli.command import ModuleCommand
 VERB_GROUP = "ros2interface.verb"
 
 
-class InterfaceCommand(ModuleCommand):
+class InterfaceCommand(ModuleCommand, module=__name__):
     """Show the definitions of messages, services and actions."""

@@ -50,5 +50,5 @@ def print_actions() -> None:
     print_kind("action")
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List all interfaces."""

@@ -33,5 +33,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class PackageVerb(VerbExtension):
+class PackageVerb(VerbExtension, module=__name__):
     """List the interfaces of a package."""

@@ -31,5 +31,5 @@ def print_packages(packs: Iterable[str]) -> None:
         print(name)
 
 
-class PackagesVerb(VerbExtension):
+class PackagesVerb(VerbExtension, module=__name__):
     """List the packages that have interfaces."""

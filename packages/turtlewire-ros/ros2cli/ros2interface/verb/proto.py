@@ -32,5 +32,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class ProtoVerb(VerbExtension):
+class ProtoVerb(VerbExtension, module=__name__):
     """Show an interface as YAML to fill in."""

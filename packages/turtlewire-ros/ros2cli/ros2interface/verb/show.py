@@ -194,5 +194,5 @@ def _field(field: Field) -> dict[str, Any]:
     return data
 
 
-class ShowVerb(VerbExtension):
+class ShowVerb(VerbExtension, module=__name__):
     """Show the definition of an interface."""

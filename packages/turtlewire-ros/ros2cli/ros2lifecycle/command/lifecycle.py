@@ -5,5 +5,5 @@ from ros2cli.command import ModuleCommand
 VERB_GROUP = "ros2lifecycle.verb"
 
 
-class LifecycleCommand(ModuleCommand):
+class LifecycleCommand(ModuleCommand, module=__name__):
     """Show and change the states of managed nodes."""

@@ -55,5 +55,5 @@ def main(args: argparse.Namespace) -> int:
     return status
 
 
-class GetVerb(VerbExtension):
+class GetVerb(VerbExtension, module=__name__):
     """Show the state of managed nodes."""

@@ -44,5 +44,5 @@ def main(args: argparse.Namespace) -> None:
         print(f"\tStart: {offered.start_state.label}\n\tGoal: {offered.goal_state.label}")
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List the transitions that a managed node offers."""

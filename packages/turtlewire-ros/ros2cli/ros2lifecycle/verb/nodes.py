@@ -30,5 +30,5 @@ def main(args: argparse.Namespace) -> None:
     print_names(names, args)
 
 
-class NodesVerb(VerbExtension):
+class NodesVerb(VerbExtension, module=__name__):
     """List the managed nodes."""

@@ -54,5 +54,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class SetVerb(VerbExtension):
+class SetVerb(VerbExtension, module=__name__):
     """Have a managed node change its state."""

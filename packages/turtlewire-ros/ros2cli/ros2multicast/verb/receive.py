@@ -18,5 +18,5 @@ def main(args: argparse.Namespace) -> None:
     print(f"Received from {host}:{port}: '{data.decode('utf-8', 'backslashreplace')}'")
 
 
-class ReceiveVerb(VerbExtension):
+class ReceiveVerb(VerbExtension, module=__name__):
     """Wait for one datagram."""

@@ -23,5 +23,5 @@ def main(args: argparse.Namespace) -> None:
         group.send(b"Hello World!")
 
 
-class SendVerb(VerbExtension):
+class SendVerb(VerbExtension, module=__name__):
     """Send one datagram."""

@@ -112,5 +112,5 @@ def print_names_and_types(names_and_types: Iterable[tuple[str, list[str]]]) -> N
     print(*(f"    {name}: {', '.join(types)}" for name, types in names_and_types), sep="\n")
 
 
-class InfoVerb(VerbExtension):
+class InfoVerb(VerbExtension, module=__name__):
     """Show what a node publishes, subscribes to and offers."""

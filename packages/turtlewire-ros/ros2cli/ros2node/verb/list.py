@@ -38,5 +38,5 @@ def main(args: argparse.Namespace) -> None:
         print_names(names, args)
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List the nodes."""

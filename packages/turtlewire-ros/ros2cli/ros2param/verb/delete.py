@@ -25,5 +25,5 @@ def main(args: argparse.Namespace) -> None:
         tell(f"Deleting parameter failed{reason}{meant}")
 
 
-class DeleteVerb(VerbExtension):
+class DeleteVerb(VerbExtension, module=__name__):
     """Delete a parameter."""

@@ -49,5 +49,5 @@ def _print(descriptor: Any) -> None:
         print(f"    Additional constraints: {descriptor.additional_constraints}")
 
 
-class DescribeVerb(VerbExtension):
+class DescribeVerb(VerbExtension, module=__name__):
     """Show what a parameter is for, and its limits."""

@@ -48,7 +48,7 @@ def _plain(value: Any) -> Any:
     return list(value) if hasattr(value, "typecode") else value
 
 
-class DumpVerb(VerbExtension):
+class DumpVerb(VerbExtension, module=__name__):
     """Show all parameters of a node as a parameter file."""
 
     def insert_dict(self, dictionary: dict[str, Any], key: str, value: Any) -> None:

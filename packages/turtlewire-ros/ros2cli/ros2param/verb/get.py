@@ -132,5 +132,5 @@ def _text(message: Any, args: argparse.Namespace, *, below: bool = False) -> str
     return f"\n  {text}" if below else text
 
 
-class GetVerb(VerbExtension):
+class GetVerb(VerbExtension, module=__name__):
     """Show the values of parameters."""

@@ -89,5 +89,5 @@ def _print_json(node_name: str, names: list[str], numbers: Sequence[int]) -> Non
         print_json({"node": node_name, "parameter": name, **type_})
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List the parameters."""

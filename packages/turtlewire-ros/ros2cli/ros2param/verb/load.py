@@ -35,5 +35,5 @@ def main(args: argparse.Namespace) -> None:
     print_set_results(parameters, results)
 
 
-class LoadVerb(VerbExtension):
+class LoadVerb(VerbExtension, module=__name__):
     """Set the parameters of a node from a file."""

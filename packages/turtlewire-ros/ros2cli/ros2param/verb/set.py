@@ -63,5 +63,5 @@ def _print(result: Any, done: str, tried: str, meant: str) -> None:
         tell(f"{tried} failed{reason}{meant}")
 
 
-class SetVerb(VerbExtension):
+class SetVerb(VerbExtension, module=__name__):
     """Set parameters."""

@@ -5,5 +5,5 @@ from ros2cli.command import ModuleCommand
 VERB_GROUP = "ros2pkg.verb"
 
 
-class PkgCommand(ModuleCommand):
+class PkgCommand(ModuleCommand, module=__name__):
     """List and create packages."""

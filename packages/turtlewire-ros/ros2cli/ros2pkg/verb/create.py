@@ -127,5 +127,5 @@ def _write(folder: str, files: dict[str, str]) -> None:
             file.write(text)
 
 
-class CreateVerb(VerbExtension):
+class CreateVerb(VerbExtension, module=__name__):
     """Create a package."""

@@ -35,5 +35,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class ExecutablesVerb(VerbExtension):
+class ExecutablesVerb(VerbExtension, module=__name__):
     """List the executables of packages."""

@@ -15,5 +15,5 @@ def main(_args: argparse.Namespace) -> None:
         print(name)
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List the installed packages."""

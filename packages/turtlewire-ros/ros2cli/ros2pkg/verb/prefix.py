@@ -28,5 +28,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class PrefixVerb(VerbExtension):
+class PrefixVerb(VerbExtension, module=__name__):
     """Show the prefix that a package is installed in."""

@@ -51,5 +51,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class XmlVerb(VerbExtension):
+class XmlVerb(VerbExtension, module=__name__):
     """Show the package.xml of a package."""

@@ -192,5 +192,5 @@ def _passed_on_by_handlers() -> Iterator[list[subprocess.Popen[bytes]]]:
             signal.signal(number, handler)
 
 
-class RunCommand(ModuleCommand):
+class RunCommand(ModuleCommand, module=__name__):
     """Run an executable of a package."""

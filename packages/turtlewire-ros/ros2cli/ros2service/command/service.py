@@ -9,5 +9,5 @@ VERB_GROUP = "ros2service.verb"
 ARGUMENTS = (hidden_argument("service"),)
 
 
-class ServiceCommand(ModuleCommand):
+class ServiceCommand(ModuleCommand, module=__name__):
     """List services, call one, watch the calls of others."""

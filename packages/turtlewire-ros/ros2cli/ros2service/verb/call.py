@@ -185,5 +185,5 @@ def _call(
         print(f"response:\n{response!r}\n")
 
 
-class CallVerb(VerbExtension):
+class CallVerb(VerbExtension, module=__name__):
     """Call a service."""

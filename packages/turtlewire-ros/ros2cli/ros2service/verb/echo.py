@@ -81,5 +81,5 @@ def _type_of_service(graph: Graph, service: str) -> str | None:
     return types[0] if types else None
 
 
-class EchoVerb(VerbExtension):
+class EchoVerb(VerbExtension, module=__name__):
     """Print the requests and responses of a service that has introspection on."""

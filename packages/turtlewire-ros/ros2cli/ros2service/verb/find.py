@@ -31,5 +31,5 @@ def main(args: argparse.Namespace) -> None:
     print_names_of_type(found, args.service_type, "srv", args)
 
 
-class FindVerb(VerbExtension):
+class FindVerb(VerbExtension, module=__name__):
     """List the services of a type."""

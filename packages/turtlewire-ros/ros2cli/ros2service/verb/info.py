@@ -54,5 +54,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class InfoVerb(VerbExtension):
+class InfoVerb(VerbExtension, module=__name__):
     """Show how many offer and may call a service."""

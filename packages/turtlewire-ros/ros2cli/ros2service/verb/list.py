@@ -27,5 +27,5 @@ def main(args: argparse.Namespace) -> None:
     print_names_and_types("service", found, args)
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List the services."""

@@ -29,5 +29,5 @@ def main(args: argparse.Namespace) -> int:
     return print_types("service", args.service_name, known, as_json=args.json)
 
 
-class TypeVerb(VerbExtension):
+class TypeVerb(VerbExtension, module=__name__):
     """Show the type of a service."""

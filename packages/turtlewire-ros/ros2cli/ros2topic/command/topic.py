@@ -9,5 +9,5 @@ VERB_GROUP = "ros2topic.verb"
 ARGUMENTS = (hidden_argument("topic"),)
 
 
-class TopicCommand(ModuleCommand):
+class TopicCommand(ModuleCommand, module=__name__):
     """List topics, listen to one, publish to one."""

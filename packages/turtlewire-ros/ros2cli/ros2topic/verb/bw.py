@@ -208,5 +208,5 @@ def _texts(rate: float, count: int, *sizes: float) -> tuple[str, ...]:
     return (f"{text(rate)}/s", str(count), *map(text, sizes))
 
 
-class BwVerb(VerbExtension):
+class BwVerb(VerbExtension, module=__name__):
     """Show the bandwidths of topics."""

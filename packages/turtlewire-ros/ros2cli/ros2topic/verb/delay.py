@@ -122,5 +122,5 @@ class ROSTopicDelay:
             print_json(dict(zip(_KEYS, (topic, *found), strict=True)))
 
 
-class DelayVerb(VerbExtension):
+class DelayVerb(VerbExtension, module=__name__):
     """Show the delay of a topic, by the stamps in its headers."""

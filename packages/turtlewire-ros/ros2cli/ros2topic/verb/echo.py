@@ -277,7 +277,7 @@ def _lost(args: argparse.Namespace) -> Any:
     return SubscriptionEventCallbacks(message_lost=report)
 
 
-class EchoVerb(VerbExtension):
+class EchoVerb(VerbExtension, module=__name__):
     """Show the messages of a topic."""
 
     def choose_qos(self, node: Any, args: argparse.Namespace) -> QoSProfile:

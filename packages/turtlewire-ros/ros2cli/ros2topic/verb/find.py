@@ -31,5 +31,5 @@ def main(args: argparse.Namespace) -> None:
     print_names_of_type(found, args.topic_type, "msg", args)
 
 
-class FindVerb(VerbExtension):
+class FindVerb(VerbExtension, module=__name__):
     """List the topics of a type."""

@@ -252,5 +252,5 @@ def _texts(
     )
 
 
-class HzVerb(VerbExtension):
+class HzVerb(VerbExtension, module=__name__):
     """Show the rates of topics."""

@@ -75,5 +75,5 @@ def _print_json(graph: Graph, name: str, types: list[str], *, verbose: bool) -> 
     print_json(data)
 
 
-class InfoVerb(VerbExtension):
+class InfoVerb(VerbExtension, module=__name__):
     """Show who publishes and subscribes to a topic."""

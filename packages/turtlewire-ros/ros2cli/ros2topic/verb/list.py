@@ -69,7 +69,7 @@ def _print_verbose_json(graph: Graph, found: NamesAndTypes) -> None:
         )
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List the topics."""
 
     @staticmethod

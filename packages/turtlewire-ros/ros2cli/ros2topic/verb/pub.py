@@ -370,5 +370,5 @@ def _loop(direct: DirectNode, sender: Any, plan: _Plan) -> None:
     direct.node.destroy_timer(timer)
 
 
-class PubVerb(VerbExtension):
+class PubVerb(VerbExtension, module=__name__):
     """Publish messages to a topic."""

@@ -32,5 +32,5 @@ def main(args: argparse.Namespace) -> int:
     return 0 if name is None else print_types("topic", name, known)
 
 
-class TypeVerb(VerbExtension):
+class TypeVerb(VerbExtension, module=__name__):
     """Show the type of a topic."""

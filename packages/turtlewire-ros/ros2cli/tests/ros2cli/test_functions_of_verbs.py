@@ -32,6 +32,8 @@ from ros2interface.verb.show import (
 )
 from ros2launch.command.launch import SuppressCompleterWorkaround
 from ros2run.command.run import REMAINDER
+from ros2topic.command.topic import TopicCommand
+from ros2topic.verb import VerbExtension
 from ros2topic.verb.echo import EchoVerb
 from std_msgs.msg import String
 
@@ -107,6 +109,37 @@ def test_subscribe_and_spin(node, capsys):
     assert said.startswith("data: hello\n---\n")
     # The node is the caller's, and only the subscription is gone.
     assert [each.topic for each in node.subscriptions if each.topic == "/t"] == []
+
+
+class OwnEcho(EchoVerb):
+    """A verb of another package, with the command line and function of a built-in one."""
+
+
+class OwnTopic(TopicCommand):
+    """A command of another package with the verbs of a built-in one."""
+
+
+class Plain(VerbExtension):
+    """Has nothing of its own."""
+
+
+def test_verbs_and_commands_of_others_have_what_they_inherit():
+    for made in (OwnEcho(), EchoVerb()):
+        parser = argparse.ArgumentParser()
+        made.add_arguments(parser, "ros2 topic echo")
+        assert "--no-arr" in parser.format_usage()
+    parser = argparse.ArgumentParser()
+    OwnTopic().add_arguments(parser, "ros2 topic", argv=["echo"])
+    assert parser.parse_args(["echo", "/t"]).topic_name == "/t"
+
+
+def test_a_verb_does_not_run_its_module_by_itself(monkeypatch):
+    here = sys.modules[__name__]
+    monkeypatch.setattr(here, "ARGUMENTS", ["--foo"], raising=False)
+    monkeypatch.setattr(here, "main", print, raising=False)
+    Plain().add_arguments(argparse.ArgumentParser(), "ros2 topic plain")
+    with pytest.raises(NotImplementedError):
+        Plain().main(args=None)
 
 
 def test_choose_qos(node):

@@ -5,5 +5,5 @@ from ros2cli.command import ModuleCommand
 VERB_GROUP = "ros2bag.verb"
 
 
-class BagCommand(ModuleCommand):
+class BagCommand(ModuleCommand, module=__name__):
     """Look at recorded messages."""

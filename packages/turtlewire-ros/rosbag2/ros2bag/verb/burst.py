@@ -61,5 +61,5 @@ def main(args: argparse.Namespace) -> None:
     Player().burst(bags_to_play(args), options, args.num_messages)
 
 
-class BurstVerb(VerbExtension):
+class BurstVerb(VerbExtension, module=__name__):
     """Publish the first messages of a bag at once."""

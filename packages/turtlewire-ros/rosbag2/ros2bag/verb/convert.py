@@ -44,5 +44,5 @@ def main(args: argparse.Namespace) -> None:
     bag_rewrite(inputs, args.output_options)
 
 
-class ConvertVerb(VerbExtension):
+class ConvertVerb(VerbExtension, module=__name__):
     """Write the messages of bags into others."""

@@ -48,5 +48,5 @@ def _tell_of_other_encodings(path: str) -> None:
             tell(foreign)
 
 
-class InfoVerb(VerbExtension):
+class InfoVerb(VerbExtension, module=__name__):
     """Show what a bag holds."""

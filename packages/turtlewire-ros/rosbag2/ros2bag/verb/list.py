@@ -32,5 +32,5 @@ def main(args: argparse.Namespace) -> None:
             print(f"\t{what}")
 
 
-class ListVerb(VerbExtension):
+class ListVerb(VerbExtension, module=__name__):
     """List the storages and compressions that can be used."""

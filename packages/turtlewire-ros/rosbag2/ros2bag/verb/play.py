@@ -227,7 +227,7 @@ def _play_options(args: argparse.Namespace) -> PlayOptions:
     )
 
 
-class PlayVerb(VerbExtension):
+class PlayVerb(VerbExtension, module=__name__):
     """Publish the messages of a bag at their times."""
 
     def get_playback_until_from_arg_group(

@@ -442,5 +442,5 @@ def _record_options(args: argparse.Namespace) -> RecordOptions:
     )
 
 
-class RecordVerb(VerbExtension):
+class RecordVerb(VerbExtension, module=__name__):
     """Record topics and service events into a bag."""

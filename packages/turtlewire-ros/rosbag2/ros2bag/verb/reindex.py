@@ -34,5 +34,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class ReindexVerb(VerbExtension):
+class ReindexVerb(VerbExtension, module=__name__):
     """Rebuild the metadata of a bag, for example after a recorder was killed."""

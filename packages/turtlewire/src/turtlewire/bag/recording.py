@@ -54,7 +54,8 @@ class Recording:
 
     Attributes:
         failure: Why the bag cannot be written any more; None while all is well.
-        lost: Numbers of messages by topic that found no room in the cache.
+        lost: Numbers of messages by topic that found no room in the cache, or that came too late
+            for a bag that cannot be written any more.
         refused: Numbers of messages by topic that no bag can hold, and why the first was refused.
 
     Raises:
@@ -196,10 +197,9 @@ class Recording:
             self._is_closed = True
             self._writer.close()
 
-    def _take(self) -> list[_Message]:
+    def _take(self) -> deque[_Message]:
         with self._changed:
-            messages = list(self._waiting)
-            self._waiting.clear()
+            messages, self._waiting = self._waiting, deque()
             self._waiting_bytes = 0
         return messages
 
@@ -223,16 +223,25 @@ class Recording:
         with self._disk:
             if self._is_closed:
                 return False
+            messages = self._take()
             try:
-                messages = self._take()
-                if self._snapshot:
-                    self._write_again(messages[0][2] if messages else self._last_ns, messages)
-                for message in messages:
-                    self._write_one(message)
-                self._writer.flush()
+                if self.failure is None:
+                    self._write(messages)
             except (OSError, sqlite3.Error) as error:
                 self._fail(error)
+            with self._changed:
+                for topic, *_ in messages:
+                    self.lost[topic] = self.lost.get(topic, 0) + 1
         return True
+
+    def _write(self, messages: deque[_Message]) -> None:
+        """Write messages and take them out. The caller holds ``_disk``."""
+        if self._snapshot:
+            self._write_again(messages[0][2] if messages else self._last_ns, messages)
+        while messages:
+            self._write_one(messages[0])
+            messages.popleft()
+        self._writer.flush()
 
     def _write_one(self, message: _Message) -> None:
         try:

@@ -318,7 +318,7 @@ class SqliteFile:
                 return
         else:
             after = BEFORE_ALL_IDS
-        columns = "CAST(timestamp AS INTEGER), CAST(data AS BLOB)"
+        columns = "CAST(timestamp AS INTEGER), IFNULL(CAST(data AS BLOB), x'')"
         where = f"timestamp BETWEEN ? AND ? AND id > ? AND topic_id IN ({_numbers(topic_ids)})"
         query = f"SELECT {columns} FROM messages WHERE {where}"  # noqa: S608 - numbers
         yield from self._in_blocks(self._tuples(query, (*window, after)))
@@ -349,7 +349,7 @@ class SqliteFile:
             f"timestamp BETWEEN ? AND ? AND topic_id IN ({_numbers(topic_ids)}) "
             "ORDER BY timestamp, id"
         )
-        time, data = "CAST(timestamp AS INTEGER)", "CAST(data AS BLOB)"
+        time, data = "CAST(timestamp AS INTEGER)", "IFNULL(CAST(data AS BLOB), x'')"
         if len(topic_ids) == 1:  # each column takes time
             (topic,) = topic_ids
             query = f"SELECT {time}, {data} FROM messages WHERE {where}"  # noqa: S608 - numbers
@@ -363,7 +363,7 @@ class SqliteFile:
     def _blocks_before_the_damage(
         self, topic_ids: Collection[int], start_ns: int, end_ns: int
     ) -> Iterator[list[RawMessage]]:
-        query = "SELECT CAST(data AS BLOB) FROM messages WHERE id = ?"
+        query = "SELECT IFNULL(CAST(data AS BLOB), x'') FROM messages WHERE id = ?"
         lost = 0
         for log_time, number, topic in self._whole_rows or ():
             if not start_ns <= log_time <= end_ns or topic not in topic_ids:

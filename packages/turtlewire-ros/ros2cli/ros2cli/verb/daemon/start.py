@@ -30,5 +30,5 @@ def main(args: argparse.Namespace) -> str | None:
     return None
 
 
-class StartVerb(VerbExtension):
+class StartVerb(VerbExtension, module=__name__):
     """Start the daemon, which answers programs; the verbs need none."""

@@ -14,5 +14,5 @@ def main(args: argparse.Namespace) -> None:
     print(f"The daemon is {'' if is_daemon_running(args) else 'not '}running")
 
 
-class StatusVerb(VerbExtension):
+class StatusVerb(VerbExtension, module=__name__):
     """Show if the daemon is running."""

@@ -17,5 +17,5 @@ def main(args: argparse.Namespace) -> None:
     print("The daemon has been stopped" if stopped else "The daemon is not running")
 
 
-class StopVerb(VerbExtension):
+class StopVerb(VerbExtension, module=__name__):
     """Stop the daemon."""
