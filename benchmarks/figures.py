@@ -78,7 +78,8 @@ def printed_by_pair(
 ) -> dict[str, float]:
     """Return the figures that two runs of a program print.
 
-    The names of its parts are the last word of each. The server's input ends after the asker.
+    ``server`` and ``asker`` are the last word of each command. When the asker has ended, the
+    server's stdin is closed.
     """
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
     with subprocess.Popen([*program, server], env=environment, **pipes) as serving:

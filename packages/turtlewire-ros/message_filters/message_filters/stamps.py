@@ -40,5 +40,5 @@ def stamp_of(message: Any, *, allow_headerless: bool, logger: RcutilsLogger) -> 
 
 
 def nanoseconds(time: Duration | float) -> int:
-    """Return a span of time, which is a Duration or in seconds, in nanoseconds."""
+    """Convert a Duration, or a number of seconds, to nanoseconds."""
     return (time if isinstance(time, Duration) else Duration(seconds=time)).nanoseconds

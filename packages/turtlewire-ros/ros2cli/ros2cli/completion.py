@@ -31,7 +31,7 @@ def executables_of(package: str) -> list[str]:
 
 
 def interface_names(kind: str = "") -> list[str]:
-    """Full names of all interfaces, sorted; ``kind`` limits them to msg, srv or action."""
+    """Return the full names of all interfaces, sorted; ``kind``: only of msg, srv or action."""
     from turtlewire import msg
 
     return sorted(

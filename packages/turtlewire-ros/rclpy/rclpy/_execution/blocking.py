@@ -1,4 +1,4 @@
-"""Blocks until a response arrives, and avoids or reports deadlocks: of calls, and of ``await``."""
+"""Waits for responses; avoids or reports deadlocks of such waits, and of ``await``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks of what programs pass when they make endpoints, and the full names of these."""
+"""Checks of the arguments that make endpoints, and the full names of endpoints."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Declarations of parameters, and checks of values against their descriptors.
 
 Interprets ``(name, value or type, descriptor)``, applies values of the command line, and says why a
-value is refused: because of its type, its range, or as the parameter is read-only.
+value is refused: its type is wrong, it is out of range, or the parameter is read-only.
 """
 
 from __future__ import annotations

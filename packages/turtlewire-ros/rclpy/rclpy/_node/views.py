@@ -1,4 +1,4 @@
-"""Views of a node for its built-in parts, which need not know all of it, and its handle."""
+"""The parts of a node that its built-in services and publishers see, and its handle."""
 
 from __future__ import annotations
 

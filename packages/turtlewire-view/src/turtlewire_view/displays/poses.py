@@ -100,7 +100,7 @@ def _drawn_poses(
 ) -> tuple[dict[str, NDArray[Any]], Vector]:
     """Return the arrays of the finite poses within the budget, and the anchor of their points.
 
-    Poses may be stamped. The display warns of the other ones.
+    Poses may be stamped. The display warns of poses that are not finite or beyond the budget.
     """
     kept = [getattr(sent[at], "pose", sent[at]) for at in spread(len(sent), display.budget)]
     rows = [

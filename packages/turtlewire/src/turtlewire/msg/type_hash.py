@@ -38,7 +38,7 @@ _TYPE_IDS = {
     "boolean": 15,
     "octet": 16,
 }
-#: What services and actions consist of, and the attribute of its definition.
+#: The members of services and actions in a type description, and their attributes in ours.
 _PARTS = {
     ServiceDefinition: {
         "request_message": "request", "response_message": "response", "event_message": "event",

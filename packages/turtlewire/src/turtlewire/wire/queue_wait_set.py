@@ -63,7 +63,7 @@ class Queued(Entity):
             return [self._queue.popleft() for _ in range(min(limit, len(self._queue)))]
 
     def require_open(self) -> None:
-        """Refuse to wait for what will never come.
+        """Make sure that messages can still arrive.
 
         Raises:
             WireError: The entity is closed.

@@ -4,6 +4,8 @@ rmw_cyclonedds writes the identity of a request in front of its fields. Fast DDS
 inline QoS of the sample, which Cyclone's API does not show. Native code reads and writes it inside
 Cyclone. It depends on the layout of some internal structures, so it accepts known versions only and
 checks each structure before it changes anything.
+
+The first request of a new client is asked for again at the addresses of this process.
 """
 
 from __future__ import annotations
