@@ -110,6 +110,11 @@ class Endpoint(EventSource, Entity):
         """True if :meth:`close` was called."""
         return self._closed
 
+    @property
+    def is_inherited(self) -> bool:
+        """True in a forked child, where Cyclone's locks may be held for good; see `Entity.close`."""
+        return self._process != os.getpid()
+
     def create_event(self, kind: EventKind) -> Event:
         if kind not in self._sources and kind is not EventKind.INCOMPATIBLE_TYPE:
             raise WireError(
@@ -138,7 +143,7 @@ class Endpoint(EventSource, Entity):
             self._event(kind).add(translated)
 
     def close(self) -> None:
-        if self._process != os.getpid():  # see `Entity.close`
+        if self.is_inherited:
             return
         with self._lock:
             if self._closed:

@@ -205,6 +205,8 @@ class CycloneClient(TopicClient):
         return any(server.ids["serviceid"] in serving for server in servers)
 
     def close(self) -> None:
+        if self.requests.is_inherited:
+            return
         with self._lock:
             self._closed = True
             identified = self._identified

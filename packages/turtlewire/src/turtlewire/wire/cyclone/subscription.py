@@ -227,6 +227,8 @@ class CycloneSubscription(Endpoint, Subscription):
         return max(0, int(dds.matched_publications(self.handle, None, 0)))
 
     def close(self) -> None:
+        if self.is_inherited:
+            return
         for wait_set in list(self.wait_sets):
             wait_set.detach(self)
         super().close()
