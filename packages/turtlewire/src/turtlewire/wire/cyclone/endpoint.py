@@ -112,7 +112,7 @@ class Endpoint(EventSource, Entity):
 
     @property
     def is_inherited(self) -> bool:
-        """True in a forked child, where Cyclone's locks may be held for good; see `Entity.close`."""
+        """True in a forked child: Cyclone's locks may be held for good; see `Entity.close`."""
         return self._process != os.getpid()
 
     def create_event(self, kind: EventKind) -> Event:
