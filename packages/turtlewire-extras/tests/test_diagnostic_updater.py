@@ -128,7 +128,7 @@ def test_a_node_publishes_its_tasks(node, got):
     got.clear()
     updater.broadcast(ERROR, "off")
     spin(node, lambda: any(status.message == "off" for status in got))
-    # One of before may still have been on its way when the list was cleared.
+    # An older status may arrive after the list was cleared.
     off = {status.name for status in got if status.message == "off"}
     assert off == {"driver: Heartbeat"}
     with pytest.raises(TypeError, match="expected a task, or a name and a function"):

@@ -148,7 +148,7 @@ class DiagnosticTaskVector:
             return found
 
     def _added(self, task: DiagnosticTask) -> None:
-        """Publish that there is a new task; of `Updater`."""
+        """Publish a status for a new task; `Updater` overrides it."""
 
 
 class Updater(DiagnosticTaskVector):

@@ -105,7 +105,7 @@ class _Runner:
         self._parser = parser
 
     def main(self, args: argparse.Namespace) -> Any:
-        """Run it; a command gets its parser, a verb does not."""
+        """Run the extension; a command gets its parser, a verb does not."""
         import inspect
 
         if "parser" in inspect.signature(self._extension.main).parameters:

@@ -162,7 +162,7 @@ class Latched:
         return topic in self._passed and self._passed[topic] < self._sent[topic]
 
     def pass_by(self, topic: str) -> None:
-        """Go past the next message of a topic, which listeners have now."""
+        """Skip the next message of a topic, which listeners already have."""
         if topic in self._passed:
             self._passed[topic] += 1
             self._sent[topic] = max(self._sent[topic], self._passed[topic])
@@ -180,7 +180,7 @@ class Latched:
         return found
 
     def _extend(self, wanted: dict[str, tuple[int, deque[BagMessage]]], time_ns: int) -> None:
-        """Add messages that were sent before a time and received after it."""
+        """Add the messages that were sent before a time and received after it."""
         is_sqlite = self._bag.has_sqlite
         open_topics = set(self._depths)
         for message in self._bag.messages(self._depths, start_ns=time_ns):

@@ -74,7 +74,7 @@ class BagSource(OfflineSource):
 
     @property
     def problem(self) -> str:
-        """Says what of the bag is not shown, and why it cannot be read; empty if all is well."""
+        """The parts of the bag that are not shown, and why; empty if all are shown."""
         return " ".join(filter(None, (*self._left_out, self._fault)))
 
     def now_ns(self) -> int:

@@ -141,7 +141,7 @@ class RobotJoints:
         return [self._describe(each.name, each.type) for each in self._moving]
 
     def positions(self) -> list[float]:
-        """Return where the joints of :meth:`description` are [rad or m]."""
+        """Return the positions of the joints of :meth:`description` [rad or m]."""
         with self._lock:
             return [self._position(each.name) for each in self._moving]
 

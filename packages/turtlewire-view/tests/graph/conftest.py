@@ -103,7 +103,7 @@ def peer(graph_page):
 
 
 class KnownGraph:
-    """What :func:`read_graph` needs of a graph."""
+    """The part of a graph that :func:`read_graph` reads."""
 
     def __init__(self) -> None:
         self._nodes: list[NodeInfo] = []

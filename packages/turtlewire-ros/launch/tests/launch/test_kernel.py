@@ -1,4 +1,4 @@
-"""What lies below entities and loop: the state of one launch, scopes; lists, types, output."""
+"""The state of one launch and its scopes; lists, types and output, which all entities use."""
 
 import asyncio
 import os

@@ -10,17 +10,23 @@ from launch.frontend import Entity as BaseEntity
 from launch_xml.launch_description_sources import XMLLaunchDescriptionSource
 from launch_yaml.launch_description_sources import YAMLLaunchDescriptionSource
 
+
+def loader(parser, path):
+    """Return a function that makes the first entity of a text."""
+
+    def load(text):
+        path.write_text(text)
+        return parser.load(str(path))[0]
+
+    return load
+
+
 # XML.
 
 
 @pytest.fixture
 def xml_entity(tmp_path):
-    def load(text):
-        path = tmp_path / "x.launch.xml"
-        path.write_text(text)
-        return launch_xml.Parser.load(str(path))[0]
-
-    return load
+    return loader(launch_xml.Parser, tmp_path / "x.launch.xml")
 
 
 def test_attributes_of_xml(xml_entity):
@@ -116,12 +122,7 @@ def test_the_source_reads_only_xml(tmp_path):
 
 @pytest.fixture
 def yaml_entity(tmp_path):
-    def load(text):
-        path = tmp_path / "x.launch.yaml"
-        path.write_text(text)
-        return launch_yaml.Parser.load(str(path))[0]
-
-    return load
+    return loader(launch_yaml.Parser, tmp_path / "x.launch.yaml")
 
 
 def test_attributes_of_yaml(yaml_entity):

@@ -227,7 +227,7 @@ class SelfWaits:
         return left if timeout_ns is None else min(left, timeout_ns)
 
     def warn(self) -> None:
-        """Say what has been held up for too long, once."""
+        """Warn once of services that have been held up for too long."""
         for service, due in list(self.due.values()):
             if time.monotonic_ns() >= due:
                 self.due.pop(service, None)

@@ -73,7 +73,7 @@ class ServedEntities:
             entity._leave(self)  # type: ignore[arg-type]  # the derived `Scheduler` is a host
 
     def _before_change(self, membership: Membership) -> None:
-        """Let its endpoints be attached one by one when the node is taken back."""
+        """Attach the endpoints one by one when the node is taken back."""
         if not membership.is_active:
             self.wait.detach_parked()
         membership.by_wire = None

@@ -194,7 +194,7 @@ class BaseNode:
     # Implemented by each kind of node
 
     def _rclpy_end_with_context(self) -> None:
-        """Have the end of the context destroy the node."""
+        """Destroy the node when its context ends."""
         raise NotImplementedError
 
     def _rclpy_make_clock(self) -> BaseClock:

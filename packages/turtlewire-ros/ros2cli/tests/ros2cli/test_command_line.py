@@ -79,7 +79,7 @@ def test_aliases_of_ordinary_size_are_taken(monkeypatch):
 
 @pytest.fixture
 def _usual_depth():
-    """What another test of this process raised may have stayed so."""
+    """Set the usual limit of recursion, which another test may have raised."""
     limit = sys.getrecursionlimit()
     sys.setrecursionlimit(1000)
     yield

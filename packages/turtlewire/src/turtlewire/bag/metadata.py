@@ -142,12 +142,12 @@ def full_type_name(name: str) -> str:
 
 
 def is_cdr(topic: TopicInfo) -> bool:
-    """Return whether messages of a topic are in CDR; an encoding without a name counts."""
+    """Return True if messages of a topic are in CDR; an encoding without a name counts."""
     return topic.serialization_format in ("cdr", "")
 
 
 def is_decodable(topic: TopicInfo) -> bool:
-    """Return whether messages of a topic are in CDR and of a type that the bag names."""
+    """Return True if messages of a topic are in CDR and of a type that the bag names."""
     return is_cdr(topic) and bool(topic.type)
 
 

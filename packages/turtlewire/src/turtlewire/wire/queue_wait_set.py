@@ -48,7 +48,7 @@ class Queued(Entity):
             notify()
 
     def leave_watchers(self) -> None:
-        """Have nothing wait for it any more."""
+        """Detach the wait sets."""
         for watcher in list(self.watchers):
             watcher.detach(self)
 

@@ -74,7 +74,7 @@ class Inlet:
         return self.sink.serve(gid_of)
 
     def call_again(self) -> None:
-        """Trigger the guard, for there may be more to serve."""
+        """Trigger the guard: more may wait to be served."""
         dds.set_guard_condition(self.guard, True)
 
     def close(self) -> None:
