@@ -6,8 +6,10 @@ from turtlewire import msg
 
 LIMIT_MS = 120_000
 #: Looks down on the square of 8 m around the origin, without frames, names and grid.
+#: Only the tests add displays: a robot that the page adds itself would be a second one.
 LOOK_DOWN = """async () => {
-    const { stage } = await import("./js/main.js");
+    const { robots, stage } = await import("./js/main.js");
+    robots.isOn = false;
     const { Vector3 } = await import("three");
     stage.cameras.choose("top");
     stage.cameras.isTouched = true;

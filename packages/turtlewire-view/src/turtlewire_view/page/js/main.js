@@ -273,4 +273,4 @@ if (stage) {
 }
 
 /** For tests and for curious people: `(await import("./js/main.js")).stage`. */
-export { displays, frames, stage };
+export { displays, frames, robots, stage };
