@@ -28,6 +28,9 @@ from turtlewire.msg.types import (
 
 FEW = settings(max_examples=3, suppress_health_check=list(HealthCheck))
 MANY = settings(max_examples=60, suppress_health_check=list(HealthCheck))
+ALL = pytest.param(1, MANY, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])
+#: Each tenth type, and as a slow test all types with many more values.
+some_or_all = pytest.mark.parametrize(("step", "limits"), [(10, FEW), ALL], ids=["some", "all"])
 
 
 def _check_all(names, messages, check, limits):
@@ -63,13 +66,14 @@ def _flat(value):
     return [value]
 
 
-def test_rows_hold_the_same_numbers(all_messages, messages):
+@pytest.mark.parametrize("step", [10, pytest.param(1, marks=pytest.mark.slow)])
+def test_rows_hold_the_same_numbers(all_messages, messages, step):
     def check(message):
         data = msg.serialize(message)
         read = msg.deserialize(type(message), data, arrays=True)
         assert repr(_flat(read)) == repr(_flat(msg.deserialize(type(message), data)))
 
-    _check_all(all_messages, messages, check, FEW)
+    _check_all(all_messages[::step], messages, check, FEW)
 
 
 # --- oracle one: pycdr2
@@ -155,20 +159,11 @@ def _same_as_pycdr2():
     return check
 
 
-def _run_pycdr2(all_messages, messages, limits):
+@some_or_all
+def test_every_type_round_trips_with_the_bytes_of_pycdr2(all_messages, messages, step, limits):
     names = [name for name in all_messages if not _has_wide_strings(name)]
-    _check_all(names, messages, _same_as_pycdr2(), limits)
     assert len(names) == len(all_messages) - 1 == 619
-
-
-def test_every_type_round_trips_with_the_bytes_of_pycdr2(all_messages, messages):
-    _run_pycdr2(all_messages, messages, FEW)
-
-
-@pytest.mark.slow
-@pytest.mark.timeout(3600)
-def test_every_type_round_trips_with_the_bytes_of_pycdr2_many_times(all_messages, messages):
-    _run_pycdr2(all_messages, messages, MANY)
+    _check_all(names[::step], messages, _same_as_pycdr2(), limits)
 
 
 def test_wide_strings_round_trip(messages):
@@ -205,9 +200,11 @@ def _rosbags_message(store, name, value):
     )
 
 
-def _run_rosbags(all_messages, messages, limits):
+@some_or_all
+def test_every_type_that_rosbags_knows_has_its_bytes(all_messages, messages, step, limits):
     store = get_typestore(Stores.ROS2_JAZZY)
     names = [name for name in all_messages if name in store.fielddefs]
+    assert len(names) == 162
 
     def check(message):
         name = msg.type_name(type(message))
@@ -218,18 +215,7 @@ def _run_rosbags(all_messages, messages, limits):
         assert theirs[: len(ours)] == ours
         assert not any(theirs[len(ours) :])
 
-    _check_all(names, messages, check, limits)
-    assert len(names) == 162
-
-
-def test_every_type_that_rosbags_knows_has_its_bytes(all_messages, messages):
-    _run_rosbags(all_messages, messages, FEW)
-
-
-@pytest.mark.slow
-@pytest.mark.timeout(3600)
-def test_every_type_that_rosbags_knows_has_its_bytes_many_times(all_messages, messages):
-    _run_rosbags(all_messages, messages, MANY)
+    _check_all(names[::step], messages, check, limits)
 
 
 @pytest.mark.parametrize("size", [1024, 1025, 1026, 1031, 5000])
