@@ -12,8 +12,23 @@ from turtlewire.cli.main import main
 
 from ..turtle_lesson.wrong_answers import WRONG_ANSWERS
 
+#: Checking an exercise takes seconds; these two are enough for the fast tests.
+QUICK = ("static", "listener")
 
-@pytest.mark.parametrize("exercise", exercises(), ids=lambda exercise: exercise.name)
+
+def of_exercises(values):
+    """Name values by their exercise; most are for the slow tests."""
+    return [
+        pytest.param(value, id=name, marks=() if name.split("-")[0] in QUICK else pytest.mark.slow)
+        for name, value in values.items()
+    ]
+
+
+EXERCISES = {exercise.name: exercise for exercise in exercises()}
+MISTAKES = {f"{wrong.exercise}-{wrong.name}": wrong for wrong in WRONG_ANSWERS}
+
+
+@pytest.mark.parametrize("exercise", of_exercises(EXERCISES))
 def test_the_solution_passes_and_the_first_files_do_not(exercise):
     lesson = load_lesson(exercise.folder)
     results = list(grade(lesson, lesson.solution()))
@@ -25,7 +40,7 @@ def test_the_solution_passes_and_the_first_files_do_not(exercise):
     assert last.hint
 
 
-@pytest.mark.parametrize("wrong", WRONG_ANSWERS, ids=lambda wrong: f"{wrong.exercise}-{wrong.name}")
+@pytest.mark.parametrize("wrong", of_exercises(MISTAKES))
 def test_a_typical_mistake_gets_its_hint(wrong):
     (exercise,) = chosen([wrong.exercise])
     lesson = load_lesson(exercise.folder)
@@ -48,7 +63,7 @@ def test_a_text_is_readable_as_plain_text():
     assert "<" not in text
 
 
-@pytest.mark.parametrize("exercise", exercises(), ids=lambda exercise: exercise.name)
+@pytest.mark.parametrize("exercise", of_exercises(EXERCISES))
 def test_a_text_is_for_the_terminal(exercise, tmp_path, monkeypatch, capsys):
     """Texts said "Press Run" and "at the right", which are in the browser tab only."""
     assert main(["class", "start", str(tmp_path), "-e", exercise.name]) == 0
