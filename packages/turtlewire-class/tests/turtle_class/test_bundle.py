@@ -28,6 +28,7 @@ def fake_wheels(tmp_path):
     return folder
 
 
+@pytest.mark.slow
 def test_it_holds_what_a_class_needs(tmp_path, fake_wheels):
     done = bundle(tmp_path, "--wheels", fake_wheels)
     assert done.returncode == 0, done.stderr

@@ -17,6 +17,8 @@ from .conftest import SIZES
 from .fake_view import IDENTITY, pose
 from .test_page import camera_of, in_page, on_screen, press
 
+pytestmark = pytest.mark.slow
+
 PARENTS = {"world": "", "base": "world", "arm": "base", "hand": "arm", "beacon": "world"}
 POSES = [IDENTITY, pose(3, 0, 0), pose(3, 2, 1), pose(3, 3, 1), pose(-1, 3, 0)]
 ROWS = [

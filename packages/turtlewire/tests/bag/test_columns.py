@@ -97,6 +97,7 @@ def same(array, values):
     return True
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("plugin", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
 def test_each_field_of_each_type_is_what_a_loop_finds(tmp_path, plugin):
     written = write(tmp_path / "all", plugin, NAMES)

@@ -101,6 +101,7 @@ def test_commands_without_nodes(first):
     assert unexpected(disagreeing(block, differences_alone, at_once=4)) == {}
 
 
+@pytest.mark.slow
 @needs_cyclone_dds  # of which the padding of raw bytes is captured
 def test_messages_of_all_kinds_are_shown():
     block = BLOCKS[-2]

@@ -34,6 +34,7 @@ def convert(tmp_path, name, *inputs, storage="mcap"):
     return main(["bag", "convert", *words, "-o", str(options)])
 
 
+@pytest.mark.slow
 def test_all_types_from_ros1_to_mcap_to_sqlite_to_mcap(tmp_path):
     # rosbags expects another hash of Char than ROS 2 has, and then reads nothing.
     write_ros1(tmp_path / "old.bag", ROS1, sorted(ROS1.fielddefs.keys() - {"std_msgs/msg/Char"}))
@@ -64,6 +65,7 @@ def test_characters_of_ros1(tmp_path):
         assert JAZZY.deserialize_cdr(data, name).data == ROS1.deserialize_ros1(old, name).data
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("plugin", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
 def test_all_types_of_ros2_through_both_storages(tmp_path, plugin):
     dice = random.Random(3)

@@ -18,6 +18,8 @@ from turtlesim import page_commands
 from .seen import publish_transform, wait_until
 from .test_page_settings import set_colour
 
+pytestmark = pytest.mark.slow
+
 SIZES = {"desktop": (1280, 800), "phone": (390, 844), "small": (320, 640), "landscape": (844, 390)}
 BACKGROUNDS = ["#4556ff", "#ffffff", "#000000", "#777777", "#8a8a8a", "#f2e24a", "#b03030"]
 #: Contrast of the brightest and the darkest pixel around the 5 at the left edge of the field.
