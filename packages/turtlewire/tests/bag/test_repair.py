@@ -14,7 +14,7 @@ from tests.bags import START
 
 from ros2cli.main import main
 from turtlewire.bag import BagWriter, open_bag, reindex
-from turtlewire.bag.pieces import new_folder
+from turtlewire.bag.unfinished import new_folder
 from turtlewire.errors import BagError
 from turtlewire.msg import get_message
 from turtlewire.wire.qos import Durability, QoS
@@ -152,7 +152,7 @@ locks = pytest.mark.skipif(sys.platform == "win32", reason="Windows does not loc
 
 WRITER = """
 import os, sys
-from turtlewire.bag.pieces import new_folder
+from turtlewire.bag.unfinished import new_folder
 with new_folder(sys.argv[1]) as path:
     os.mkdir(path)
     print("ready", flush=True)

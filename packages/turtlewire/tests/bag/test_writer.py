@@ -2,6 +2,7 @@
 
 import os
 import re
+import resource
 import sqlite3
 import subprocess
 import sys
@@ -349,6 +350,31 @@ def test_a_bag_that_cannot_begin_another_file_is_closed(tmp_path, monkeypatch, s
     with open_bag(tmp_path / "made") as bag:
         assert [message.log_time_ns for message in bag] == [1]
         assert (len(bag), len(bag.metadata.paths)) == (1, 1)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
+@pytest.mark.parametrize("way", ["mcap", "sqlite3", "sqlite3 that is read"])
+def test_without_room_to_compress_a_file_stays_as_it_is(tmp_path, way):
+    storage = way.split()[0]
+    writer = BagWriter(tmp_path / "made", storage=storage, compression_mode="FILE")
+    noise = np.random.default_rng(0).bytes(400_000)
+    writer.write("/noise", msg.get_message("std_msgs/msg/UInt8MultiArray")(data=noise), 1)
+    writer.flush()
+    reader = sqlite3.connect(writer.file_path if "read" in way else ":memory:")
+    rows = reader.execute("SELECT * FROM sqlite_schema")  # keeps the log next to the file
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    writer.on_compress = lambda _: resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, limits[1]))
+    try:
+        with pytest.raises((OSError, sqlite3.Error)):
+            writer.close()
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        rows.close()
+        reader.close()
+    name = {"mcap": "made_0.mcap", "sqlite3": "made_0.db3"}[storage]
+    assert {path.name for path in (tmp_path / "made").iterdir()} == {name, "metadata.yaml"}
+    with open_bag(tmp_path / "made") as bag:
+        assert [bytes(message.decode().data) for message in bag] == [noise]
 
 
 def test_a_name_that_is_none_of_a_type(tmp_path):

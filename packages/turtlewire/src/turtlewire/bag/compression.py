@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
+from turtlewire.bag.unfinished import new_file
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -133,8 +134,16 @@ def read_zstd_file(path: str) -> Iterator[bytes]:
 
 
 def write_zstd_file(source: str, target: str) -> None:
-    """Compress a whole file as rosbag2's compression mode FILE does (level 1)."""
-    with open(source, "rb") as file, _zstd().open(target, "wb", level=_ZSTD_LEVEL) as out:
+    """Compress a whole file as rosbag2's compression mode FILE does (level 1).
+
+    Raises:
+        OSError: The disk is full, for example; no target is left.
+    """
+    with (
+        new_file(target) as path,
+        open(source, "rb") as file,
+        _zstd().open(path, "wb", level=_ZSTD_LEVEL) as out,
+    ):
         shutil.copyfileobj(file, out, _FILE_BLOCK)
 
 

@@ -18,10 +18,11 @@ from turtlewire.bag.mcap_storage import McapStorage
 from turtlewire.bag.message_choice import check_unit
 from turtlewire.bag.metadata import NEWEST_VERSION
 from turtlewire.bag.output_channels import OutputChannels, Selection, as_tuple
-from turtlewire.bag.pieces import Pieces, new_folder
+from turtlewire.bag.pieces import Pieces
 from turtlewire.bag.progress import progress_line
 from turtlewire.bag.reader import open_bag
 from turtlewire.bag.times import date_text, duration_ns, moment_ns, size_bytes
+from turtlewire.bag.unfinished import new_folder
 from turtlewire.errors import BagError
 from turtlewire.terminal.suggestion import did_you_mean
 

@@ -7,7 +7,6 @@ policies up to 8, words since. The content determines the form, as in rosbag2.
 
 from __future__ import annotations
 
-import contextlib
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -21,6 +20,7 @@ from turtlewire.bag.qos_yaml import (
     profiles_to_text,
     qos_to_yaml,
 )
+from turtlewire.bag.unfinished import new_file
 from turtlewire.errors import BagError
 from turtlewire.terminal.printable import printable
 
@@ -268,16 +268,9 @@ def write_metadata(folder: str, metadata: BagMetadata) -> None:
         OSError: The disk is full, for example. A former ``metadata.yaml`` stays as it was.
     """
     path = os.path.join(folder, METADATA_FILE)
-    unfinished = path + ".part"
-    try:
-        with open(unfinished, "w", encoding="utf-8") as file:
-            file.write(f"{_KEY}:\n")
-            file.writelines(f"  {line}\n" for line in dump_metadata(metadata).splitlines())
-        os.replace(unfinished, path)
-    except OSError:
-        with contextlib.suppress(FileNotFoundError):
-            os.remove(unfinished)
-        raise
+    with new_file(path) as unfinished, open(unfinished, "w", encoding="utf-8") as file:
+        file.write(f"{_KEY}:\n")
+        file.writelines(f"  {line}\n" for line in dump_metadata(metadata).splitlines())
 
 
 def dump_metadata(metadata: BagMetadata) -> str:

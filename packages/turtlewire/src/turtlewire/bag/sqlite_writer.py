@@ -6,6 +6,8 @@ import os
 import sqlite3
 from contextlib import closing, suppress
 
+from turtlewire.bag.unfinished import new_file
+
 __all__ = ["SqliteWriter", "merge_by_copy"]
 
 _SCHEMA = """
@@ -154,11 +156,13 @@ def merge_by_copy(path: str) -> None:
     """
     if not os.path.exists(path + "-wal"):
         return
-    copy = path + ".whole"
-    with closing(sqlite3.connect(path)) as source, closing(sqlite3.connect(copy)) as target:
+    with (
+        new_file(path) as copy,
+        closing(sqlite3.connect(path)) as source,
+        closing(sqlite3.connect(copy)) as target,
+    ):
         source.backup(target)
         target.execute("PRAGMA journal_mode = DELETE")
-    os.replace(copy, path)
     for log in (path + "-wal", path + "-shm"):
         with suppress(FileNotFoundError):
             os.remove(log)
