@@ -182,8 +182,9 @@ void BatchLookup::read_link(const Link& link, const Stamp* stamps, std::size_t& 
     const Sample &first = *pairs[i].older, &second = *pairs[i].newer;
     older.set(i, first.pose);
     newer.set(i, second.pose);
-    ratios[i] = static_cast<double>(times[i] - first.stamp);
-    spans[i] = static_cast<double>(second.stamp - first.stamp + (second.stamp == first.stamp));
+    ratios[i] = static_cast<double>(elapsed(first.stamp, times[i]));
+    spans[i] =
+        static_cast<double>(elapsed(first.stamp, second.stamp) + (second.stamp == first.stamp));
   }
   for (std::size_t i = 0; i < kLanes; ++i) ratios[i] /= spans[i];
   kernels().interpolate(older, newer, ratios, result, cosines);
@@ -309,7 +310,7 @@ Velocity mean_velocity(const Pose& first, const Pose& last, const Vec3& fixed_po
 // begins 10 microseconds after it.
 Stamp interval_start(Stamp end, Stamp interval) {
   constexpr Stamp kFirst = 10'000;
-  return end > kFirst ? std::max(end - interval, kFirst) : end - interval;
+  return std::max(earlier(end, interval), end > kFirst ? kFirst : kLatest + 1);
 }
 
 }  // namespace
@@ -331,7 +332,8 @@ std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityReq
     Status status[4][kLanes];
     for (std::size_t i = 0; i < n; ++i) {
       times[i] = stamps[begin + i] != kLatest ? stamps[begin + i] : latest;
-      ends[i] = times[i] <= latest ? std::min(times[i] + request.interval / 2, latest) : times[i];
+      const Stamp half = request.interval / 2;
+      ends[i] = times[i] > earlier(latest, half) ? std::max(times[i], latest) : times[i] + half;
       starts[i] = interval_start(ends[i], request.interval);
     }
     motion.block({ends, n}, last, status[0]);

@@ -221,8 +221,9 @@ class Link {
     if (reading.status != ReadStatus::future && reading.status != ReadStatus::past) return reading;
     const bool after = reading.status == ReadStatus::future;
     const std::size_t i = after ? samples_.size() - 2 : 0;
-    const Stamp gap = after ? t - samples_.newest() : samples_.oldest() - t;
-    if (gap > limit || samples_.parent(i) != samples_.parent(i + 1) ||
+    const bool is_far =
+        after ? samples_.newest() < earlier(t, limit) : t < earlier(samples_.oldest(), limit);
+    if (is_far || samples_.parent(i) != samples_.parent(i + 1) ||
         samples_.stamp(i) == samples_.stamp(i + 1))
       return reading;
     return between(i, t);

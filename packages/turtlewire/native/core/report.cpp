@@ -16,7 +16,7 @@ std::string decimals(double value, int digits) {
 // tf2 takes at least 100 µs for the time between the first and the last sample.
 double rate(const Link& link) {
   return static_cast<double>(link.length()) /
-         std::max(seconds(link.newest() - link.oldest()), 0.0001);
+         std::max(seconds(elapsed(link.oldest(), link.newest())), 0.0001);
 }
 
 }  // namespace
@@ -50,7 +50,8 @@ std::string Tree::frames_as_yaml(double now) const {
     text += "  most_recent_transform: " + decimals(seconds(link.newest()), 6) + "\n";
     text += "  oldest_transform: " + decimals(seconds(link.oldest()), 6) + "\n";
     if (now > 0.0) text += "  transform_delay: " + decimals(now - seconds(link.newest()), 3) + "\n";
-    text += "  buffer_length: " + decimals(seconds(link.newest() - link.oldest()), 3) + "\n";
+    text +=
+        "  buffer_length: " + decimals(seconds(elapsed(link.oldest(), link.newest())), 3) + "\n";
   }
   return text;
 }
@@ -65,8 +66,8 @@ std::string Tree::dot_edge(FrameId child, const Link& link, double now) const {
   text += "Average rate: " + decimals(rate(link), 3) + " Hz\\n";
   text += "Most recent transform: " + decimals(seconds(link.newest()), 6) + " ";
   if (now > 0.0) text += "( " + decimals(now - seconds(link.newest()), 3) + " sec old)";
-  text +=
-      "\\nBuffer length: " + decimals(seconds(link.newest() - link.oldest()), 3) + " sec\\n\"];\n";
+  text += "\\nBuffer length: " + decimals(seconds(elapsed(link.oldest(), link.newest())), 3) +
+          " sec\\n\"];\n";
   return text;
 }
 

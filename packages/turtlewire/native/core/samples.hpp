@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -29,9 +30,15 @@ inline Stamp earlier(Stamp t, Stamp span) {
   return t < first + span ? first : t - span;
 }
 
+// The nanoseconds from one stamp to another that is not before it: a Stamp may not hold them.
+inline std::uint64_t elapsed(Stamp begin, Stamp end) {
+  return static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(begin);
+}
+
 // As tf2 turns times and durations into seconds; its texts show the rounding.
-inline double seconds(Stamp t) {
-  constexpr Stamp second = 1'000'000'000;
+template <std::integral Nanoseconds>
+double seconds(Nanoseconds t) {
+  constexpr Nanoseconds second = 1'000'000'000;
   return static_cast<double>(t / second) + 1e-9 * static_cast<double>(t % second);
 }
 
@@ -149,8 +156,11 @@ class Samples {
     const Sample *older, *newer;
 
     double ratio(Stamp t) const {
-      return static_cast<double>(t - older->stamp) /
-             static_cast<double>(newer->stamp - older->stamp);
+      const bool before = t < older->stamp;
+      const auto part =
+          static_cast<double>(before ? elapsed(t, older->stamp) : elapsed(older->stamp, t));
+      const auto whole = static_cast<double>(elapsed(older->stamp, newer->stamp));
+      return before ? -part / whole : part / whole;
     }
   };
   Pair pair(std::size_t i) const {
@@ -170,7 +180,7 @@ class Samples {
   // Where `t` lies by the mean rate; never the last sample. Needs t <= newest().
   std::size_t guess(Stamp t) const {
     const std::size_t last = size_ - 1;
-    const double back = static_cast<double>(newest() - t) * per_ns_;
+    const double back = static_cast<double>(elapsed(t, newest())) * per_ns_;
     return back < static_cast<double>(last) ? last - 1 - static_cast<std::size_t>(back) : 0;
   }
 
@@ -229,7 +239,7 @@ class Samples {
   }
 
   void measure_rate() {
-    const Stamp span = newest() - oldest();
+    const std::uint64_t span = elapsed(oldest(), newest());
     per_ns_ = span > 0 ? static_cast<double>(size_ - 1) / static_cast<double>(span) : 0.0;
   }
 
@@ -242,10 +252,7 @@ class Samples {
     const auto begin = [this](std::size_t block) { return blocks_[first_ + block].begin; };
     const std::size_t block = gallop(t, at / kBlock, last / kBlock + 1, begin);
     if (block != at / kBlock) {
-      // Unsigned, because the difference of two stamps may not fit into one.
-      const auto after_ns =
-          static_cast<std::uint64_t>(t) - static_cast<std::uint64_t>(begin(block));
-      const double after = static_cast<double>(after_ns) * per_ns_;
+      const double after = static_cast<double>(elapsed(begin(block), t)) * per_ns_;
       at = block * kBlock + (after < kBlock ? static_cast<std::size_t>(after) : kBlock - 1);
       at = std::clamp(at, head_, last);
     }

@@ -93,8 +93,9 @@ Status Tree::latest_common_time(FrameId target, FrameId source, Stamp& t, Failur
 
 Reading Rule::read(const Link& link) const {
   if (newest) {
-    const Stamp age = max_age != kForever && !link.is_static() ? t - link.newest() : 0;
-    return age <= max_age ? link.read(kLatest) : Reading{ReadStatus::future};
+    const bool is_old =
+        max_age != kForever && !link.is_static() && link.newest() < earlier(t, max_age);
+    return is_old ? Reading{ReadStatus::future} : link.read(kLatest);
   }
   return beyond != 0 ? link.read_beyond(t, beyond) : link.read(t);
 }

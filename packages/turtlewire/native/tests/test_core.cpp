@@ -210,6 +210,33 @@ void test_search() {
   }
 }
 
+// The time between two stamps may be twice what a stamp can hold.
+void test_far_stamps() {
+  constexpr Stamp first = kLatest + 1, last = kForever;
+  for (const std::size_t size : {2U, 3U, 40U, 100U}) {
+    Arena arena;
+    Link link(arena);
+    link.become(LinkKind::dynamic_link);
+    for (std::size_t i = 0; i + 1 < size; ++i)
+      link.insert({first + static_cast<Stamp>(i), {}}, 1, kForever);
+    link.insert({last, {{2, 0, 0}, {}}}, 1, kForever);
+    for (const Stamp t : {Stamp{0}, first + 200, last - 1, last}) {
+      const double x = t == 0 ? 1.0 : t == first + 200 ? 0.0 : 2.0;
+      const Reading reading = link.read(t);
+      check(reading.status == ReadStatus::ok && std::fabs(reading.pose.translation.x - x) < 1e-9,
+            "stamps at both ends of time");
+    }
+  }
+  Arena arena;
+  Link link(arena);
+  link.become(LinkKind::dynamic_link);
+  for (const Stamp t : {Stamp{0}, last / 2}) link.insert({t, {}}, 1, kForever);
+  for (const Stamp t : {first, last}) {
+    check(link.read_beyond(t, 1000).status != ReadStatus::ok, "too far to extrapolate");
+    check(link.read_beyond(t, kForever).status == ReadStatus::ok, "as far as a stamp can be");
+  }
+}
+
 void test_parents() {
   Random random(6);
   for (int round = 0; round < 300; ++round) {
@@ -691,6 +718,7 @@ int main(int count, char** arguments) {
   test_canonical();
   test_kernels_agree();
   test_search();
+  test_far_stamps();
   test_parents();
   test_random_operations();
   test_memory();

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     import turtlewire
 
 SECOND = 1_000_000_000
+LAST = 2**63 - 1
 NO_TURN = (0.0, 0.0, 0.0, 1.0)
 QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
 
@@ -513,6 +514,35 @@ class TestCache:
         for t in (-5, 1, 10**18):
             buffer.set_transform("a", "b", t, (0, 0, 0), NO_TURN)
         assert buffer.can_transform("a", "b", -5)
+
+    @pytest.mark.parametrize("samples", [2, 3, 100])
+    def test_stamps_at_both_ends_of_time(self, core: Any, samples: int) -> None:
+        buffer = core.Buffer(LAST)
+        for i in range(samples - 1):
+            buffer.set_transform("a", "b", -LAST + i, (0, 0, 0), NO_TURN)
+        buffer.set_transform("a", "b", LAST, (2, 0, 0), NO_TURN)
+        stamps = [0, -LAST + 200, LAST // 2, LAST - 1, LAST]
+        expected = near([1.0, 0.0, 1.5, 2.0, 2.0])
+        found = [buffer.lookup_transform("a", "b", stamp).x for stamp in stamps]
+        assert found == expected
+        assert list(buffer.lookup_transforms("a", "b", np.array(stamps))[:, 0]) == expected
+        assert "buffer_length: 18446744073.710\n" in buffer.to_yaml()
+        velocity = buffer.lookup_velocity("a", "b", [LAST // 2, LAST], interval_ns=LAST)
+        assert list(velocity[:, 0]) == pytest.approx([1e9 / LAST] * 2)
+
+    def test_limits_reach_from_one_end_of_time_to_the_other(self, core: Any) -> None:
+        buffer = core.Buffer(LAST)
+        for stamp in (0, LAST // 2):
+            buffer.set_transform("a", "b", stamp, (stamp, 0, 0), NO_TURN)
+        for stamp in (-LAST, LAST):
+            assert not buffer.can_transform("a", "b", stamp, extrapolate_ns=1000)
+            found = buffer.lookup_transform("a", "b", stamp, extrapolate_ns=LAST)
+            assert found.x == float(stamp)
+        old = core.Buffer(LAST)
+        old.set_transform("a", "b", -LAST, (1, 0, 0), NO_TURN)
+        with pytest.raises(errors.ExtrapolationException):
+            old.lookup_newest("a", "b", now_ns=LAST, max_age_ns=LAST - 1)
+        assert old.lookup_newest("a", "b", now_ns=-2, max_age_ns=LAST - 1).x == 1.0
 
 
 class TestTransform:
