@@ -9,10 +9,13 @@ from tests.needs import needs_cyclone_dds
 from tests.places import TURTLEWIRE
 
 from turtlewire import msg
-from turtlewire.relay.side import End, parse_end
+from turtlewire.errors import WireError
+from turtlewire.relay.routes import ServiceRoute, TopicRoute
+from turtlewire.relay.side import End, Mark, Side, parse_end
 from turtlewire.testing import reserved_domain
 from turtlewire.wire import open_context
 from turtlewire.wire.base import ServiceTypes, TypeId
+from turtlewire.wire.local.bus import bus_of
 from turtlewire.wire.qos import Durability, History, Liveliness, QoS, Reliability
 
 pytestmark = needs_cyclone_dds
@@ -386,6 +389,73 @@ def test_a_network_that_cannot_be_joined_is_one_line(run):
     assert program.wait() == 2
     assert program.text.startswith("turtlewire relay: ")
     assert "Traceback" not in program.text
+
+
+class HandledByTheTest(Side):
+    """An end on the in-process middleware whose handlers the test calls."""
+
+    def __init__(self, domain_id):
+        super().__init__(End("local", domain_id), Mark([]))
+        self.handlers = []
+
+    def serve(self, entity, handle):
+        self.handlers.append(handle)
+
+
+@pytest.fixture
+def sides(other_domain):
+    with reserved_domain() as domain:
+        both = HandledByTheTest(domain), HandledByTheTest(other_domain)
+        yield both
+        for side in both:
+            side.close()
+
+
+def test_a_message_that_cannot_be_sent_is_the_only_one_lost(sides, capfd):
+    near, far = sides
+    publishers = [near.node.create_publisher("/secret", SECRET, QoS()) for _ in range(2)]
+    received = far.node.create_subscription("/secret", SECRET, QoS())
+    nodes = [far.node_for(name, far.look()) for name in ("/a", "/b")]
+    owners = dict(zip((publisher.gid for publisher in publishers), nodes, strict=True))
+    route = TopicRoute(near, far, ("/secret", "/secret"), SECRET, None)
+    route.update(
+        near.graph.endpoints_of("/secret", "publisher"),
+        far.graph.endpoints_of("/secret", "subscription"),
+        set(),
+        lambda publisher: owners[publisher.gid],
+    )
+    nodes[0].close()
+    for publisher in publishers:
+        publisher.publish(cdr(f"from {publishers.index(publisher)}"))
+    near.handlers[0]()
+    assert [data for data, _ in received.take()] == [cdr("from 1")]
+    (line,) = capfd.readouterr().err.splitlines()
+    assert line.endswith(f"{far.end}: publish on /secret: the publisher is closed")
+    route.close()
+
+
+def test_a_response_that_cannot_be_sent_is_the_only_one_lost(sides, capfd):
+    near, far = sides
+    server = near.node.create_service("/ask", ASK, QoS())
+    client = far.node.create_client("/ask", ASK, QoS())
+    route = ServiceRoute(near, far, "/ask", ASK)
+    assert route.offer("/ask", far.node)
+    sent = [client.send_request(cdr(name)) for name in ("a", "b")]
+    carry_responses, carry_requests = near.handlers[0], far.handlers[0]
+    carry_requests()
+    for request_id, request in server.take():
+        server.send_response(request_id, request)
+    bus = bus_of(far.end.domain_id)
+
+    def fail_once(_sender, _message):
+        bus.tamper = None
+        raise WireError("not sent")
+
+    bus.tamper = fail_once
+    carry_responses()
+    assert client.take() == [(sent[1], cdr("b"))]
+    assert capfd.readouterr().err.endswith(f"{far.end}: not sent\n")
+    route.close()
 
 
 def test_ends_have_two_spellings():

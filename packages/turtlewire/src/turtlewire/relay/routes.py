@@ -11,7 +11,6 @@ from turtlewire import msg
 from turtlewire.errors import InterfaceError, WireError
 from turtlewire.wire.base import ServiceTypes, TypeId
 from turtlewire.wire.qos import Durability, History, QoS, Reliability
-from turtlewire.wire.report import warn_once
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import EndpointInfo, Node, Publisher, RequestId, Service, Subscription
@@ -156,7 +155,10 @@ class TopicRoute:
                 continue
             converted = cdr if self._convert is None else self._convert(cdr)
             if converted is not None:
-                copy.publisher.publish(converted)
+                try:
+                    copy.publisher.publish(converted)
+                except WireError as error:  # the other messages are carried
+                    self._far.warn(error)
 
     def _copy_of(self, gid: bytes) -> _Copy | None:
         """Return the publisher that represents another; None for one of a relay."""
@@ -226,7 +228,7 @@ class ServiceRoute:
                 if len(self._pending) > _MOST_PENDING:
                     del self._pending[next(iter(self._pending))]
         except WireError as error:
-            warn_once(f"relay {self._client.service}", error.in_one_line())
+            self._near.warn(error)
 
     def _carry_responses(self) -> None:
         """Carry responses back; runs on the thread of the near end."""
@@ -234,7 +236,10 @@ class ServiceRoute:
             with self._lock:
                 request_id = self._pending.pop(number, None)
             if request_id is not None and self._service is not None:
-                self._service.send_response(request_id, cdr)
+                try:
+                    self._service.send_response(request_id, cdr)
+                except WireError as error:  # the other responses are carried
+                    self._far.warn(error)
 
     def close(self) -> None:
         """Close both halves."""

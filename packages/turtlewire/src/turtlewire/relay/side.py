@@ -224,7 +224,11 @@ class Side:
                 try:
                     handle()
                 except WireError as error:
-                    warn_once(f"relay {self.end} {error}", f"{self.end}: {error.in_one_line()}")
+                    self.warn(error)
+
+    def warn(self, error: WireError) -> None:
+        """Print an error of this end, once and on one line."""
+        warn_once(f"relay {self.end} {error}", f"{self.end}: {error.in_one_line()}")
 
     def close(self) -> None:
         """Leave the network."""
