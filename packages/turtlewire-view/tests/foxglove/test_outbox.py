@@ -10,11 +10,23 @@ from turtlewire_view.foxglove.outbox import Outbox
 
 
 class Notes:
-    """An outbox, and what it called."""
+    """An outbox with the subscriptions 0 to 3, and what it called."""
 
     def __init__(self, limit=100):
         self.wakes, self.lost, self.floods = 0, [], 0
         self.outbox = Outbox(limit, self.wake, self.lost.append, self.flood)
+        self.numbers = {}
+        for subscription_id in range(4):
+            self.begin(subscription_id)
+
+    def begin(self, subscription_id):
+        self.numbers[subscription_id] = self.outbox.begin(subscription_id)
+
+    def put(self, subscription_id, time_ns, cdr):
+        self.outbox.put(self.numbers[subscription_id], time_ns, cdr)
+
+    def end(self, subscription_id):
+        self.outbox.end(self.numbers[subscription_id])
 
     def wake(self):
         self.wakes += 1
@@ -31,13 +43,13 @@ class Notes:
 
 def test_other_frames_go_first_then_the_newest_time_then_messages_in_order():
     notes = Notes()
-    notes.outbox.put(1, 10, b"a")
+    notes.put(1, 10, b"a")
     notes.outbox.set_time(b"old")
-    notes.outbox.put(2, 11, b"b")
+    notes.put(2, 11, b"b")
     notes.outbox.set_time(b"new")
     notes.outbox.send("first")
     notes.outbox.send(b"second")
-    notes.outbox.put(1, 12, b"c")
+    notes.put(1, 12, b"c")
     head = struct.Struct("<BIQ")
     assert notes.taken() == [
         "first",
@@ -48,17 +60,17 @@ def test_other_frames_go_first_then_the_newest_time_then_messages_in_order():
         head.pack(1, 1, 12) + b"c",
     ]
     assert notes.wakes == 1
-    notes.outbox.put(1, 13, b"d")
-    notes.outbox.put(1, 14, b"e")
+    notes.put(1, 13, b"d")
+    notes.put(1, 14, b"e")
     assert notes.wakes == 2
 
 
 def test_the_largest_topic_loses_its_oldest_messages_and_says_so_once():
     notes = Notes(limit=100)
-    notes.outbox.put(1, 0, b"map")
+    notes.put(1, 0, b"map")
     for number in range(10):
-        notes.outbox.put(2, number, bytes([number]) * 40)
-    notes.outbox.put(3, 0, bytes(500))  # larger than the limit, and its only message
+        notes.put(2, number, bytes([number]) * 40)
+    notes.put(3, 0, bytes(500))  # larger than the limit, and its only message
     assert [frame[13:][:1] for frame in notes.taken()] == [b"m", b"\x09", b"\0"]
     assert notes.lost == [2]
 
@@ -68,9 +80,9 @@ def test_the_largest_topic_loses_its_oldest_messages_and_says_so_once():
 )
 def test_messages_that_fit_exactly_are_kept(last, kept):
     notes = Notes(limit=100)
-    notes.outbox.put(1, 0, bytes(60))
-    notes.outbox.put(1, 1, bytes(40))
-    notes.outbox.put(1, 2, bytes(last))
+    notes.put(1, 0, bytes(60))
+    notes.put(1, 1, bytes(40))
+    notes.put(1, 2, bytes(last))
     assert notes.lost == ([] if last == 0 else [1])
     assert [len(frame) - 13 for frame in notes.taken()] == kept
 
@@ -79,28 +91,41 @@ def test_a_subscription_that_begins_again_tells_again_of_its_loss():
     notes = Notes(limit=100)
     for _ in range(2):
         for _ in range(3):
-            notes.outbox.put(1, 0, bytes(60))
-        notes.outbox.forget(1)
+            notes.put(1, 0, bytes(60))
+        notes.end(1)
+        notes.begin(1)
     assert notes.lost == [1, 1]
 
 
 def test_an_ended_subscription_leaves_nothing():
     notes = Notes()
-    notes.outbox.put(1, 0, bytes(90))
-    notes.outbox.forget(1)
+    notes.put(1, 0, bytes(90))
+    notes.end(1)
     assert notes.taken() == []
-    notes.outbox.put(2, 0, bytes(60))
-    notes.outbox.put(2, 0, bytes(30))
+    notes.put(2, 0, bytes(60))
+    notes.put(2, 0, bytes(30))
     assert not notes.lost
     notes.outbox.send("before the end")
     notes.outbox.set_time(b"before the end")
     assert not notes.outbox.is_empty
     notes.outbox.close()
     assert notes.outbox.is_empty
-    notes.outbox.put(2, 0, b"")
+    notes.put(2, 0, b"")
     notes.outbox.send("late")
     notes.outbox.set_time(b"late")
     assert notes.taken() == []
+
+
+def test_a_message_after_the_end_of_its_subscription_is_dropped():
+    notes = Notes()
+    ended = notes.numbers[1]
+    notes.end(1)
+    notes.outbox.put(ended, 0, b"from a thread of the wire")
+    assert notes.outbox.is_empty
+    notes.begin(1)  # the client uses the id again, for another topic
+    notes.outbox.put(ended, 0, b"of the former topic")
+    notes.put(1, 0, b"of the new topic")
+    assert [frame[13:] for frame in notes.taken()] == [b"of the new topic"]
 
 
 def test_a_client_that_reads_nothing_is_given_up():
@@ -141,11 +166,12 @@ def test_it_holds_at_most_the_limit_and_one_message_of_each_topic(steps, limit):
     newest = {}
     for number, (step, topic, size) in enumerate(steps):
         if step == "put":
-            notes.outbox.put(topic, number, bytes(size))
+            notes.put(topic, number, bytes(size))
             model.setdefault(topic, []).append(number)
             newest[topic] = size
         elif step == "forget":
-            notes.outbox.forget(topic)
+            notes.end(topic)
+            notes.begin(topic)
             model.pop(topic, None)
         else:
             notes.outbox.take()

@@ -94,9 +94,10 @@ class FoxgloveChannel:
         Raises:
             WireError: The wire refuses the subscription.
         """
-        self._receivers = (*self._receivers, (outbox, subscription_id))
+        number = outbox.begin(subscription_id)
+        self._receivers = (*self._receivers, (outbox, number))
         try:
-            self._subscribe_own(outbox, subscription_id)
+            self._subscribe_own(outbox, number)
             if self._shared is None:
                 self._subscribe_shared()
         except BaseException:
@@ -105,10 +106,13 @@ class FoxgloveChannel:
 
     def remove(self, outbox: Outbox) -> None:
         """Stop sending messages to a client."""
+        numbers = [number for each, number in self._receivers if each is outbox]
         self._receivers = tuple(each for each in self._receivers if each[0] is not outbox)
         own = self._own.pop(outbox, None)
         if own is not None:
             own.close()
+        for number in numbers:  # the wire's threads may still use the former receivers
+            outbox.end(number)
         if not self._receivers and self._shared is not None:
             self._shared.close()
             self._shared = None
@@ -118,7 +122,7 @@ class FoxgloveChannel:
         for outbox, _ in self._receivers:
             self.remove(outbox)
 
-    def _subscribe_own(self, outbox: Outbox, subscription_id: int) -> None:
+    def _subscribe_own(self, outbox: Outbox, number: int) -> None:
         if self._durable is None:
             return
         former = self._own.pop(outbox, None)
@@ -128,7 +132,7 @@ class FoxgloveChannel:
         def receive(cdr: bytes, info: MessageInfo) -> None:
             if info.publisher_gid in self._others:  # Zenoh: the shared one also gets it
                 return
-            outbox.put(subscription_id, self._now_ns() or info.received_timestamp_ns, cdr)
+            outbox.put(number, self._now_ns() or info.received_timestamp_ns, cdr)
 
         self._own[outbox] = self._subscribe(self._durable, receive)
 
@@ -149,8 +153,8 @@ class FoxgloveChannel:
         if info.publisher_gid in self._keepers:  # the clients' own subscriptions deliver it
             return
         time_ns = self._now_ns() or info.received_timestamp_ns
-        for outbox, subscription_id in self._receivers:
-            outbox.put(subscription_id, time_ns, cdr)
+        for outbox, number in self._receivers:
+            outbox.put(number, time_ns, cdr)
 
 
 def _fitting(publishers: list[EndpointInfo], durability: Durability) -> QoS | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable
+from itertools import count
 from typing import NamedTuple
 
 from turtlewire_view.foxglove.protocol import message_data
@@ -34,7 +35,7 @@ class Outbox:
     Args:
         limit: How many bytes of messages may wait.
         wake: Called when there is something to take after there was nothing; for any thread.
-        on_loss: Called with the number of a subscription when it loses its first message.
+        on_loss: Called with the id of a subscription when it loses its first message.
         on_flood: Called once when too many other frames wait for the client to be reading.
     """
 
@@ -53,6 +54,8 @@ class Outbox:
         self._frames: deque[str | bytes] = deque()
         self._frame_bytes = 0
         self._time: bytes | None = None
+        self._numbers = count(1)
+        self._ids: dict[int, int] = {}
         self._messages: dict[int, deque[_Message]] = {}  # of subscriptions with any
         self._sizes: dict[int, int] = {}
         self._bytes = 0
@@ -91,26 +94,35 @@ class Outbox:
                 self._time = frame
                 self._rouse()
 
-    def put(self, subscription_id: int, time_ns: int, cdr: bytes) -> None:
-        """Add a message of a subscription."""
+    def begin(self, subscription_id: int) -> int:
+        """Return the number of a new subscription; a client can use the id of one that ended."""
         with self._lock:
-            if self._is_closed:
+            number = next(self._numbers)
+            if not self._is_closed:
+                self._ids[number] = subscription_id
+            return number
+
+    def put(self, number: int, time_ns: int, cdr: bytes) -> None:
+        """Add a message of a subscription; nothing happens if the subscription has ended."""
+        with self._lock:
+            if number not in self._ids:
                 return
             self._count += 1
-            queue = self._messages.setdefault(subscription_id, deque())
+            queue = self._messages.setdefault(number, deque())
             queue.append(_Message(self._count, time_ns, cdr))
-            self._resize(subscription_id, len(cdr))
+            self._resize(number, len(cdr))
             lost = self._shrink() if self._bytes > self._limit else []
             self._rouse()
-        for number in lost:
-            self._on_loss(number)
+        for subscription_id in lost:
+            self._on_loss(subscription_id)
 
-    def forget(self, subscription_id: int) -> None:
-        """Drop the messages of a subscription that has ended."""
+    def end(self, number: int) -> None:
+        """Drop the messages of a subscription, now and from now on."""
         with self._lock:
-            self._messages.pop(subscription_id, None)
-            self._bytes -= self._sizes.pop(subscription_id, 0)
-            self._losing.discard(subscription_id)
+            self._ids.pop(number, None)
+            self._messages.pop(number, None)
+            self._bytes -= self._sizes.pop(number, 0)
+            self._losing.discard(number)
 
     def take(self) -> str | bytes | None:
         """Return the next frame; None if no frame waits, and `wake` is called for the next one."""
@@ -127,7 +139,8 @@ class Outbox:
                 return None
             number = min(self._messages, key=lambda each: self._messages[each][0].number)
             message = self._pop(number)
-        return message_data(number, message.time_ns, message.cdr)
+            subscription_id = self._ids[number]
+        return message_data(subscription_id, message.time_ns, message.cdr)
 
     def close(self) -> None:
         """Drop everything, now and from now on."""
@@ -136,6 +149,7 @@ class Outbox:
             self._frames.clear()
             self._frame_bytes = self._bytes = 0
             self._time = None
+            self._ids.clear()
             self._messages.clear()
             self._sizes.clear()
 
@@ -145,7 +159,7 @@ class Outbox:
             self._wake()
 
     def _shrink(self) -> list[int]:
-        """Drop old messages; the subscriptions that lose for the first time."""
+        """Drop old messages; return the ids of subscriptions that lose for the first time."""
         lost = []
         while self._bytes > self._limit:
             droppable = [number for number, queue in self._messages.items() if len(queue) > 1]
@@ -155,7 +169,7 @@ class Outbox:
             self._pop(number)
             if number not in self._losing:
                 self._losing.add(number)
-                lost.append(number)
+                lost.append(self._ids[number])
         return lost
 
     def _pop(self, number: int) -> _Message:

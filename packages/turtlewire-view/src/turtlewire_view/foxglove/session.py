@@ -117,7 +117,6 @@ class FoxgloveSession:
         for subscription_id, number in list(self._subscriptions.items()):
             if number in numbers:
                 del self._subscriptions[subscription_id]
-                self.outbox.forget(subscription_id)
 
     @property
     def follows_parameters(self) -> bool:
@@ -222,7 +221,6 @@ class FoxgloveSession:
                 self.tell(WARNING, f"there is no subscription {subscription_id}")
             else:
                 self._bridge.offers.channels[number].remove(self.outbox)
-                self.outbox.forget(subscription_id)
 
     # -- publishing
 
