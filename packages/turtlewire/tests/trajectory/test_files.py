@@ -217,6 +217,19 @@ def test_stamps():
         Trajectory([1, 2, 3], poses)
 
 
+@pytest.mark.parametrize(
+    ("stamps", "error"),
+    [
+        (np.array([2**63, 2**63 + 1], dtype=np.uint64), OverflowError),
+        (np.array(["NaT", "2026-01-01"], dtype="datetime64[ns]"), ValueError),
+        (np.array(["3000-01-01", "3200-01-01"], dtype="datetime64[s]"), ValueError),
+    ],
+)
+def test_stamps_that_do_not_fit_do_not_wrap_around(stamps, error):
+    with pytest.raises(error, match=r"do(es)? not fit into 64 bits|NaT"):
+        Trajectory(stamps, np.zeros((2, 7)))
+
+
 @pytest.mark.parametrize("kind", ["tum", "kitti", "euroc", "csv"])
 def test_any_format_is_written_and_recognised(tmp_path, kind):
     from turtlewire.trajectory.files import write_file

@@ -11,7 +11,7 @@ from turtlewire.tf.datetimes import nanoseconds_array
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["number_array", "point_array", "stamp_array"]
+__all__ = ["int64_stamps", "number_array", "point_array", "stamp_array"]
 
 
 def stamp_array(stamps: ArrayLike) -> NDArray[np.int64]:
@@ -35,6 +35,16 @@ def stamp_array(stamps: ArrayLike) -> NDArray[np.int64]:
         elif array.size == max(array.shape):
             remedy = "; write stamps.ravel()"
         raise ValueError(f"stamps must have the shape (N,), not {array.shape}{remedy}")
+    return int64_stamps(array)
+
+
+def int64_stamps(array: NDArray[Any]) -> NDArray[np.int64]:
+    """Return integers or ``datetime64`` (N,) as contiguous int64 nanoseconds.
+
+    Raises:
+        OverflowError: A stamp does not fit into 64 bits.
+        ValueError: A time is NaT, or does not fit into 64 bits.
+    """
     if array.dtype.kind == "M":
         return nanoseconds_array(array)
     if array.dtype.kind == "u" and array.size and array.max() > np.iinfo(np.int64).max:

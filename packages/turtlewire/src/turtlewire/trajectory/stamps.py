@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from turtlewire.tf.array_arguments import int64_stamps
 from turtlewire.tf.datetimes import as_nanoseconds
 
 if TYPE_CHECKING:
@@ -40,12 +41,11 @@ def as_stamps(stamps: ArrayLike) -> NDArray[np.int64]:
     Raises:
         TypeError: The array holds something else. Floats are refused: a double holds the seconds
             since 1970 only to 0.24 microseconds.
-        ValueError: The array has not one dimension, or does not increase.
+        OverflowError: A stamp does not fit into 64 bits.
+        ValueError: The array has not one dimension, does not increase or contains NaT.
     """
     array = np.asarray(stamps)
-    if array.dtype.kind == "M":
-        array = array.astype("datetime64[ns]").astype(np.int64)
-    if array.dtype.kind not in "iu" and array.size:
+    if array.dtype.kind not in "iuM" and array.size:
         advice = ""
         if array.ndim == 2:
             advice = "; stamps come before the poses"
@@ -58,7 +58,7 @@ def as_stamps(stamps: ArrayLike) -> NDArray[np.int64]:
         )
     if array.ndim != 1:
         raise ValueError(f"expected stamps of shape (N,), got {array.shape}")
-    array = np.ascontiguousarray(array, dtype=np.int64)
+    array = int64_stamps(array)
     back = np.flatnonzero(array[1:] <= array[:-1])
     if len(back):
         row = int(back[0])
