@@ -90,6 +90,45 @@ REMAP = argument(
 )
 
 
+#: What 64 bits of nanoseconds hold, in seconds.
+_MOST_SECONDS = 9223372036.0
+
+
+def number(text: str) -> float:
+    """Return a number, for argparse.
+
+    Raises:
+        argparse.ArgumentTypeError: The text is not a number.
+    """
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not the valid type (float)") from None
+
+
+def seconds(text: str) -> float:
+    """Return a number of seconds that fits into 64 bits of nanoseconds, or a negative one.
+
+    Raises:
+        argparse.ArgumentTypeError: The text is not such a number.
+    """
+    value = number(text)
+    if not value <= _MOST_SECONDS:  # not `>`, so that NaN is rejected as well
+        raise argparse.ArgumentTypeError(f"{text} is not in the valid range (<= {_MOST_SECONDS})")
+    return value
+
+
+def seconds_from_zero(text: str) -> float:
+    """Return a number of seconds from zero that fits into 64 bits of nanoseconds.
+
+    Raises:
+        argparse.ArgumentTypeError: The text is not such a number.
+    """
+    if not number(text) >= 0:
+        raise argparse.ArgumentTypeError(f"{text} is not in the valid range (>= 0.0)")
+    return seconds(text)
+
+
 def several(flag: str, what: str, text: str, completer: Completer | None = None) -> Argument:
     """Return an option that takes one or more names, and is empty by default."""
     return argument(flag, metavar=what, nargs="+", default=[], help=text, completer=completer)

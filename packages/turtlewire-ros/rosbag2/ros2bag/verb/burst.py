@@ -16,6 +16,7 @@ from ros2bag.options import (
     event_topics,
     qos_overrides,
     remap_words,
+    seconds_from_zero,
     several,
 )
 from ros2bag.verb import VerbExtension
@@ -33,7 +34,12 @@ ARGUMENTS = (
     QOS_OVERRIDES,
     REMAP,
     STORAGE_CONFIG,
-    argument("--start-offset", type=float, default=0.0, help="Position in the bag to start at [s]"),
+    argument(
+        "--start-offset",
+        type=seconds_from_zero,
+        default=0.0,
+        help="Position in the bag to start at [s]",
+    ),
     argument(
         "-n",
         "--num-messages",

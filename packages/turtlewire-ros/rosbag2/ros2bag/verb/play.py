@@ -17,8 +17,11 @@ from ros2bag.options import (
     bag_topics,
     bags_to_play,
     event_topics,
+    number,
     qos_overrides,
     remap_words,
+    seconds,
+    seconds_from_zero,
     several,
 )
 from ros2bag.verb import VerbExtension
@@ -37,25 +40,11 @@ def positive_float(arg: str) -> float:
     Raises:
         argparse.ArgumentTypeError: The text is not such a number.
     """
-    value = _number(arg)
+    value = number(arg)
     # Not `value <= 0`, so that NaN is rejected as well.
     if not value > 0 or math.isinf(value):
         raise argparse.ArgumentTypeError(f"{arg} is not in the valid range (> 0.0)")
     return value
-
-
-def _not_negative(text: str) -> float:
-    value = _number(text)
-    if not value >= 0 or math.isinf(value):
-        raise argparse.ArgumentTypeError(f"{text} is not in the valid range (>= 0.0)")
-    return value
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text} is not the valid type (float)") from None
 
 
 ARGUMENTS = (
@@ -100,18 +89,18 @@ ARGUMENTS = (
         ),
     ),
     argument(
-        "-d", "--delay", type=_not_negative, default=0.0, help="Wait before each playback [s]"
+        "-d", "--delay", type=seconds_from_zero, default=0.0, help="Wait before each playback [s]"
     ),
     argument(
         "--playback-duration",
-        type=float,
+        type=seconds,
         default=-1.0,
         help="Length of the part to play [s]; negative for all",
     ),
     exclusive(
         argument(
             "--playback-until-sec",
-            type=float,
+            type=seconds,
             default=-1.0,
             help="Bag time at which to stop [s]; negative for the end",
         ),
@@ -126,7 +115,7 @@ ARGUMENTS = (
     argument("-p", "--start-paused", action="store_true", help="Start paused"),
     argument(
         "--start-offset",
-        type=_not_negative,
+        type=seconds_from_zero,
         default=0.0,
         help="Position in the bag to start at [s]; earlier latched messages are published first",
     ),

@@ -11,7 +11,7 @@ import rosbag2_py
 from example_interfaces.srv import AddTwoInts
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
-from ros2bag.verb import play
+from ros2bag.verb import burst, play
 from ros2cli.arguments import add_arguments
 from rosbag2_interfaces import srv
 from rosbag2_py import MessageOrder, PlayOptions, ServiceRequestsSource, StorageOptions
@@ -81,6 +81,38 @@ def test_words_become_options(words, expected):
         if name in expected:
             expected = {name: [f"{service}/_service_event" for service in expected[name]]}
     assert found == expected
+
+
+@pytest.mark.parametrize("verb", [play, burst])
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("x", "x is not the valid type (float)"),
+        *((text, f"{text} is not in the valid range (>= 0.0)") for text in ("nan", "-1", "-inf")),
+        *(
+            (each, f"{each} is not in the valid range (<= 9223372036.0)")
+            for each in ("inf", "1e10")
+        ),
+    ],
+)
+def test_a_start_offset_is_a_number_of_seconds_from_zero(capsys, verb, text, wrong):
+    parser = argparse.ArgumentParser()
+    add_arguments(parser, verb.ARGUMENTS)
+    with pytest.raises(SystemExit, match="2"):
+        parser.parse_args([str(SMALL), f"--start-offset={text}"])
+    assert capsys.readouterr().err.endswith(f": error: argument --start-offset: {wrong}\n")
+
+
+@pytest.mark.parametrize("option", ["--playback-duration", "--playback-until-sec"])
+@pytest.mark.parametrize("text", ["nan", "inf", "1e10"])
+def test_limits_that_are_no_times_are_rejected(capsys, option, text):
+    parser = argparse.ArgumentParser()
+    add_arguments(parser, play.ARGUMENTS)
+    assert parser.parse_args([str(SMALL), option, "9223372036"])
+    with pytest.raises(SystemExit, match="2"):
+        parser.parse_args([str(SMALL), option, text])
+    wrong = f"{text} is not in the valid range (<= 9223372036.0)"
+    assert capsys.readouterr().err.endswith(f": error: argument {option}: {wrong}\n")
 
 
 @pytest.mark.parametrize(

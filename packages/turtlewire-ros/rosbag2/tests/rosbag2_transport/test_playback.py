@@ -34,6 +34,7 @@ def test_it_runs_at_its_rate_and_stands_still(monotonic):
     assert clock.now_ns() == 102 * SECOND
     assert clock.seconds_until(106 * SECOND) == 2.0
     assert clock.seconds_until(101 * SECOND) == 0.0
+    assert PlayClock(0, 1e-300).seconds_until(SECOND) == threading.TIMEOUT_MAX
     clock.pause()
     monotonic.now += 10 * SECOND
     assert clock.now_ns() == 102 * SECOND

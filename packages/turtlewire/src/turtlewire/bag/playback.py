@@ -68,10 +68,14 @@ class PlayClock:
         self.rate = rate
 
     def seconds_until(self, time_ns: int) -> float:
-        """Seconds of the real time until a time of the bag, as if it ran; 0 for the past."""
+        """Seconds of the real time until a time of the bag, as if it ran; 0 for the past.
+
+        At most what threads can wait.
+        """
         # From the last jump and not from now: errors do not add up over a long bag.
         due_ns = self._since_ns + (time_ns - self._shown_ns) / self.rate
-        return max(0.0, (due_ns - self._monotonic_ns()) * 1e-9)
+        seconds = (due_ns - self._monotonic_ns()) * 1e-9
+        return min(max(0.0, seconds), threading.TIMEOUT_MAX)
 
 
 class ReadAhead:
