@@ -1,6 +1,6 @@
 """Records 200 MB a minute, and plays at three rates: what is lost, and how late messages come.
 
-    python -m benchmarks.recording load --minutes 10
+    python -m benchmarks.recording --minutes 10
 
 publishes images of 100 kB and small messages with numbers, records them with ``ros2 bag record``,
 and compares the bag with what was sent. `scripts/bench recording` plays a bag of 100 messages a
@@ -152,7 +152,6 @@ def rows() -> Iterator[Row]:
 def main() -> int:
     """Record; the status is 1 if messages are missing."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=("load",))
     parser.add_argument("--minutes", type=float, default=10.0)
     return int(load(parser.parse_args().minutes) != 0)
 
