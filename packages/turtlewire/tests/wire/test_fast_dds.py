@@ -160,6 +160,31 @@ def test_a_crowd_of_services_of_one_type_is_no_trouble(context, types, usable):
     assert FAST_DDS.obstacle == ""
 
 
+@compiled
+@pytest.mark.parametrize("closed", ["node", "context"])
+def test_a_writer_of_requests_is_closed_with_its_node(
+    context, types, usable, monkeypatch, capfd, closed
+):
+    count_children = ctypes.CDLL(dds.LIBRARY.path).dds_get_children
+    participant = context._core.participant.handle
+    before = count_children(participant, None, 0)
+    node = context.create_node("ours")
+    client = node.create_client("/clear", types, QoS())
+    open_requests = client._open_requests
+
+    def close_and_open():  # as if another thread closed it at this moment
+        (node if closed == "node" else context).close()
+        return open_requests()
+
+    monkeypatch.setattr(client, "_open_requests", close_and_open)
+    monkeypatch.setattr(client._servers, "now", lambda: [MatchedEndpoint(GUID, {})])
+    client._servers_changed()
+    assert client._identified is None
+    assert capfd.readouterr().err == ""
+    if closed == "node":
+        assert count_children(participant, None, 0) == before
+
+
 def test_services_on_cyclone_work_beside(context, types, usable):
     node = context.create_node("ours")
     client, server = (

@@ -12,6 +12,7 @@ from contextlib import ExitStack
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from turtlewire.errors import WireError
 from turtlewire.wire import names
 from turtlewire.wire.checked_node import CheckedNode
 from turtlewire.wire.graph import with_best_available
@@ -191,7 +192,11 @@ class CycloneNode(CheckedNode):
         return subscription
 
     def _adopt(self, endpoint: Endpoint, gids: list[bytes]) -> None:
-        """Announce an endpoint until it closes, and watch its statuses."""
+        """Announce an endpoint until it closes, and watch its statuses.
+
+        Raises:
+            WireError: The node is closed; the endpoint is closed then.
+        """
 
         def closing() -> None:
             self._core.reader.unwatch(endpoint.handle)
@@ -207,6 +212,9 @@ class CycloneNode(CheckedNode):
             gids.append(endpoint.gid)
         self._core.reader.watch(endpoint.handle, endpoint.statuses_changed)
         self._core.announcer.changed()
+        if self._closed:  # by another thread, which may not have seen this endpoint
+            endpoint.close()
+            raise WireError(f"create an endpoint of {endpoint.spec.name}: the node is closed")
 
     def _close(self) -> None:
         with self._lock:

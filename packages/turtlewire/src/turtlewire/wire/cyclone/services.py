@@ -155,7 +155,8 @@ class CycloneClient(TopicClient):
                     requests.close()
                     return
             except WireError as error:
-                warn_once(f"requests {self.service}", str(error))
+                if not self.requests.closed:  # with its node, by another thread
+                    warn_once(f"requests {self.service}", str(error))
                 return
             self._identified = IdentifiedRequests(requests, self.replies.gid, self._refuse)
 
