@@ -412,5 +412,4 @@ def test_the_page_names_every_option(run):
     program = run("turtlewire", "relay", "--help", environment={"PATH": PATH})
     assert program.wait() == 0
     options = set(re.findall(r"--[a-z][a-z-]*", program.text)) - {"--help"}
-    assert options
-    assert all(f"`{option} " in RELAY for option in options), options
+    assert set(re.findall(r"`(--[a-z][a-z-]*)", RELAY)) == options
