@@ -9,6 +9,9 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from mcap.reader import make_reader
+from mcap.writer import CompressionType
+from mcap.writer import Writer as McapWriter
 from rosbags.rosbag2 import Reader
 from tests.bags import START
 
@@ -23,9 +26,9 @@ String = get_message("std_msgs/msg/String")
 LATCHED = QoS(depth=1, durability=Durability.TRANSIENT_LOCAL)
 
 
-def written(path, storage, count=1000):
+def written(path, storage, count=1000, **options):
     """A bag without metadata.yaml; returns its file."""
-    kept = {"ros_distro": "jazzy", "custom_data": {"robot": "r1"}}
+    kept = {"ros_distro": "jazzy", "custom_data": {"robot": "r1"}, **options}
     with BagWriter(path, storage=storage, chunk_bytes=5000, **kept) as writer:
         writer.add_topic("/a", "std_msgs/msg/String", qos=[LATCHED])
         for number in range(count):
@@ -43,11 +46,20 @@ def numbers(path):
     return found
 
 
-@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
-@pytest.mark.parametrize("share", [0.3, 0.65, 0.97])
-def test_a_cut_bag_is_made_whole(tmp_path, storage, share):
+@pytest.mark.parametrize(
+    ("storage", "options"),
+    [
+        ("mcap", {}),
+        ("mcap", {"compression": "zstd"}),
+        ("mcap", {"compression": "lz4"}),
+        ("sqlite3", {}),
+        ("sqlite3", {"compression_mode": "MESSAGE"}),
+    ],
+)
+@pytest.mark.parametrize("share", [0.4, 0.65, 0.97])
+def test_a_cut_bag_is_made_whole(tmp_path, storage, options, share):
     path = tmp_path / "bag"
-    file = written(path, storage)
+    file = written(path, storage, **options)
     whole = file.read_bytes()
     file.write_bytes(whole[: int(len(whole) * share)])
     before = numbers(path)
@@ -84,6 +96,31 @@ def test_a_copy_that_a_killed_repair_left_is_replaced(tmp_path, storage):
     assert numbers(path) == before
     names = {file.name, f"{file.name}.damaged", "metadata.yaml"}
     assert {each.name for each in path.iterdir()} == names
+
+
+def test_channels_in_other_encodings_are_repaired(tmp_path):
+    (tmp_path / "bag").mkdir()
+    file = tmp_path / "bag" / "bag_0.mcap"
+    with file.open("wb") as out:
+        writer = McapWriter(out, chunk_size=1, compression=CompressionType.ZSTD)
+        writer.start("", "test")
+        schemas = {"/pose": writer.register_schema("demo.Pose", "jsonschema", b"{}"), "/free": 0}
+        for topic, schema in schemas.items():
+            channel = writer.register_channel(topic, "json", schema)
+            for time in range(10):
+                writer.add_message(channel, log_time=time, publish_time=time, data=b"{}")
+        writer.finish()
+    file.write_bytes(file.read_bytes()[:-1000])
+    reindex(tmp_path / "bag")
+    assert Path(f"{file}.damaged").exists()
+    with file.open("rb") as repaired:
+        found = [
+            (channel.topic, channel.message_encoding, schema and (schema.name, schema.encoding))
+            for schema, channel, message in make_reader(repaired).iter_messages()
+            if message.data == b"{}"
+        ]
+    pose, free = ("/pose", "json", ("demo.Pose", "jsonschema")), ("/free", "json", None)
+    assert sorted(found, key=str) == [*[free] * 10, *[pose] * 10]
 
 
 def test_a_whole_bag_is_not_rewritten(tmp_path):
