@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import shutil
-import sqlite3
 from collections.abc import Iterable
 from dataclasses import fields
 from datetime import timedelta
@@ -73,7 +72,7 @@ def bag_rewrite(input_options: Iterable[StorageOptions], output_config_file: str
             left_out = rewrite(bags, _outputs(configurations))
     except BagError as error:
         raise RuntimeError(str(error)) from error
-    except (OSError, sqlite3.Error) as error:
+    except OSError as error:
         raise RuntimeError(f"Converting stopped: {error}") from error
     if left_out:
         raise RuntimeError(" ".join(left_out))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sqlite3
 from typing import TYPE_CHECKING, Any
 
 from rclpy.logging import get_logger
@@ -205,7 +204,7 @@ def make_writer(storage_options: StorageOptions, compression_mode: str) -> BagWr
         ) from error
     except OSError as error:
         raise RuntimeError(f"cannot make the bag {storage_options.uri}: {error}") from error
-    except (BagError, sqlite3.Error) as error:
+    except BagError as error:
         raise RuntimeError(str(error)) from error
     if storage == "sqlite3":
         if storage_options.storage_preset_profile not in _SQLITE_PRESETS:

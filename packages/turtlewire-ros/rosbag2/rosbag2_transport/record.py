@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import sqlite3
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -147,7 +146,7 @@ def _finish(recording: Recording, writer: BagWriter) -> None:
     failure: Exception | None = None
     try:
         recording.close()
-    except (OSError, sqlite3.Error) as error:
+    except OSError as error:
         failure = error
     _report_lost(recording)
     failure = recording.failure or failure

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sqlite3
 from typing import TYPE_CHECKING, Any
 
 from rosbag2_interfaces import srv
@@ -61,7 +60,7 @@ class RecorderServices:
     def _split(self, _request: Any, response: Any) -> Any:
         try:
             self.report_split(*self._recording.split())
-        except (BagError, OSError, sqlite3.Error) as error:  # the recording ends and reports why
+        except (BagError, OSError) as error:  # the recording ends and reports why
             self._node.get_logger().error(f"The bag file cannot be split: {error}")
         return response
 

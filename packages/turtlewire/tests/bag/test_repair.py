@@ -2,6 +2,7 @@
 
 import os
 import random
+import resource
 import subprocess
 import sys
 import threading
@@ -131,17 +132,24 @@ def test_a_whole_bag_is_not_rewritten(tmp_path):
     assert {each.name for each in (tmp_path / "bag").iterdir()} == {file.name, "metadata.yaml"}
 
 
-def test_without_room_the_damaged_file_stays(tmp_path, monkeypatch, capfd):
-    file = written(tmp_path / "bag", "mcap")
-    damaged = file.read_bytes()[:20_000]
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_without_room_the_damaged_file_stays(tmp_path, storage, capfd):
+    with BagWriter(tmp_path / "bag", storage=storage, chunk_bytes=5000) as writer:
+        noise = random.Random(1)
+        for number in range(100):
+            writer.write("/a", String(data=noise.randbytes(2000).hex()), START + number)
+    os.remove(tmp_path / "bag" / "metadata.yaml")
+    (file,) = (tmp_path / "bag").iterdir()
+    damaged = file.read_bytes()[:-100_000]
     file.write_bytes(damaged)
-
-    def full(*_args, **_options):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("turtlewire.bag.repair._copy_mcap", full)
-    assert main(["bag", "reindex", str(tmp_path / "bag")]) == 0
-    assert f"{file} is not repaired: [Errno 28] No space left" in capfd.readouterr().err
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, limits[1]))
+    try:
+        assert main(["bag", "reindex", str(tmp_path / "bag")]) == 0
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert f"{file} is not repaired: [Errno " in capfd.readouterr().err
     assert file.read_bytes() == damaged
     assert {each.name for each in (tmp_path / "bag").iterdir()} == {file.name, "metadata.yaml"}
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sqlite3
 import threading
 from collections import Counter, deque
 from collections.abc import Callable, Sequence
@@ -143,7 +142,7 @@ class Recording:
         with self._disk:
             try:
                 self._writer.add_topic(*args, **options)
-            except (OSError, sqlite3.Error) as error:
+            except OSError as error:
                 self._fail(error)
 
     def repeat(self, topic: str, depth: int) -> None:
@@ -166,7 +165,6 @@ class Recording:
         Raises:
             BagError: The recording has ended.
             OSError: The bag can no longer be written; `failure` has the same error.
-            sqlite3.Error: The same of a database.
         """
         if not self._snapshot:
             self._write_waiting()
@@ -176,7 +174,7 @@ class Recording:
             try:
                 paths = self._writer.split()
                 self._write_again(self._last_ns)
-            except (OSError, sqlite3.Error) as error:
+            except OSError as error:
                 self._fail(error)
                 raise
             return paths
@@ -227,7 +225,7 @@ class Recording:
             try:
                 if self.failure is None:
                     self._write(messages)
-            except (OSError, sqlite3.Error) as error:
+            except OSError as error:
                 self._fail(error)
             with self._changed:
                 for topic, *_ in messages:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sqlite3
-from contextlib import closing, suppress
+from collections.abc import Iterator
+from contextlib import closing, contextmanager, suppress
 
 from turtlewire.bag.unfinished import new_file
 
@@ -30,6 +32,16 @@ _SCHEMA_VERSION = 4
 _BATCH_BYTES = 768 * 1024
 
 
+@contextmanager
+def _as_os_error(path: str) -> Iterator[None]:
+    """Raise errors of sqlite3 as OSError."""
+    try:
+        yield
+    except sqlite3.Error as error:
+        number = errno.ENOSPC if "full" in str(error) else errno.EIO
+        raise OSError(number, str(error), path) from error
+
+
 class SqliteWriter:
     """A sqlite3 file that is being written.
 
@@ -42,19 +54,20 @@ class SqliteWriter:
 
     Raises:
         FileExistsError: The file already exists.
-        sqlite3.Error: From each method: the file cannot be written.
+        OSError: From each method: the file cannot be written, for example because the disk is full.
     """
 
     def __init__(self, path: str, ros_distro: str) -> None:
         if os.path.exists(path):
             raise FileExistsError(f"{path} exists already")
         self.path = path
-        self._database = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
+        with _as_os_error(path):
+            self._database = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
         try:
-            self._database.executescript("PRAGMA journal_mode = WAL; PRAGMA synchronous = OFF;")
-            self._database.executescript(_SCHEMA)
-            version = (_SCHEMA_VERSION, ros_distro)
-            self._database.execute("INSERT INTO schema VALUES (?, ?)", version)
+            with _as_os_error(path):
+                self._database.executescript("PRAGMA journal_mode = WAL; PRAGMA synchronous = OFF;")
+                self._database.executescript(_SCHEMA)
+            self._insert("schema VALUES (?, ?)", (_SCHEMA_VERSION, ros_distro))
         except BaseException:
             self._database.close()
             raise
@@ -76,8 +89,8 @@ class SqliteWriter:
         """Add the definition of a type, once."""
         if type_name not in self._types:
             self._types.add(type_name)
-            self._database.execute(
-                "INSERT INTO message_definitions VALUES (NULL, ?, ?, ?, ?)",
+            self._insert(
+                "message_definitions VALUES (NULL, ?, ?, ?, ?)",
                 (type_name, encoding, text, type_hash),
             )
 
@@ -85,11 +98,9 @@ class SqliteWriter:
         self, name: str, type_name: str, qos: str, type_hash: str, encoding: str = "cdr"
     ) -> int:
         """Add a topic; returns its id."""
-        cursor = self._database.execute(
-            "INSERT INTO topics VALUES (NULL, ?, ?, ?, ?, ?)",
-            (name, type_name, encoding, qos, type_hash),
+        topic_id = self._insert(
+            "topics VALUES (NULL, ?, ?, ?, ?, ?)", (name, type_name, encoding, qos, type_hash)
         )
-        topic_id = cursor.lastrowid or 0
         self.topic_counts[topic_id] = 0
         return topic_id
 
@@ -102,13 +113,18 @@ class SqliteWriter:
 
     def write_metadata(self, version: int, text: str) -> None:
         """Add metadata as YAML; the last one counts."""
-        self._database.execute("INSERT INTO metadata VALUES (NULL, ?, ?)", (version, text))
+        self._insert("metadata VALUES (NULL, ?, ?)", (version, text))
+
+    def _insert(self, values: str, row: tuple[str | int, ...]) -> int:
+        """Insert a row; return its id."""
+        with _as_os_error(self.path):
+            return self._database.execute(f"INSERT INTO {values}", row).lastrowid or 0
 
     def flush(self) -> None:
         """Write the pending messages in one transaction."""
         if not self._pending:
             return
-        with self._database:  # commits, or rolls back after an error
+        with _as_os_error(self.path), self._database:  # commits, or rolls back after an error
             self._database.execute("BEGIN")
             self._database.executemany(
                 "INSERT INTO messages (topic_id, timestamp, data) VALUES (?, ?, ?)", self._pending
@@ -140,8 +156,9 @@ class SqliteWriter:
 
     def _merge_log(self) -> None:
         try:
-            self._database.execute("PRAGMA journal_mode = DELETE")
-        except sqlite3.OperationalError as error:
+            with _as_os_error(self.path):
+                self._database.execute("PRAGMA journal_mode = DELETE")
+        except OSError as error:
             # Another process is reading the file: the last reader that closes it merges the log.
             if "locked" not in str(error):
                 raise
@@ -151,12 +168,13 @@ def merge_by_copy(path: str) -> None:
     """Make a closed file whole whose log waits for its readers: they keep the former file.
 
     Raises:
-        OSError: The system does not replace files that are open.
-        sqlite3.Error: The file cannot be read, or its copy not be written.
+        OSError: The file cannot be read, its copy not be written, or the system does not replace
+            files that are open.
     """
     if not os.path.exists(path + "-wal"):
         return
     with (
+        _as_os_error(path),
         new_file(path) as copy,
         closing(sqlite3.connect(path)) as source,
         closing(sqlite3.connect(copy)) as target,

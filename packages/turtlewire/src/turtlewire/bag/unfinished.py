@@ -7,7 +7,6 @@ import os
 import re
 import shutil
 import signal
-import sqlite3
 import sys
 import threading
 from collections.abc import Iterator
@@ -57,9 +56,6 @@ def new_folder(path: str | os.PathLike[str]) -> Iterator[str]:
         yield os.path.join(scratch, name)
         _refuse_existing(target)
         os.rename(os.path.join(scratch, name), target)
-    except sqlite3.Error as error:
-        number = errno.ENOSPC if "full" in str(error) else errno.EIO
-        raise OSError(number, str(error), target) from error
     except OSError as error:
         if error.filename is None or str(error.filename).startswith(scratch):
             raise OSError(error.errno, error.strerror, target) from error
