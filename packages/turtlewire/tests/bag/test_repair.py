@@ -18,6 +18,7 @@ from tests.bags import START
 
 from ros2cli.main import main
 from turtlewire.bag import BagWriter, open_bag, reindex
+from turtlewire.bag.compression import write_zstd_file
 from turtlewire.bag.unfinished import new_folder
 from turtlewire.errors import BagError
 from turtlewire.msg import get_message
@@ -97,6 +98,15 @@ def test_a_copy_that_a_killed_repair_left_is_replaced(tmp_path, storage):
     assert numbers(path) == before
     names = {file.name, f"{file.name}.damaged", "metadata.yaml"}
     assert {each.name for each in path.iterdir()} == names
+
+
+def test_a_file_that_is_there_twice_is_read_once(tmp_path):
+    file = written(tmp_path / "bag", "mcap", 10)
+    write_zstd_file(str(file), f"{file}.zstd")  # and the recorder was killed before it removed it
+    assert reindex(tmp_path / "bag").message_count == 10
+    assert numbers(tmp_path / "bag") == list(range(10))
+    file.unlink()
+    assert reindex(tmp_path / "bag").message_count == 10
 
 
 def test_channels_in_other_encodings_are_repaired(tmp_path):

@@ -481,6 +481,19 @@ writer.write("/a", get_message("std_msgs/msg/String")(data="x"), log_time_ns=1)
         assert len(bag) == len(list(bag)) == 1
 
 
+def test_an_oldest_file_that_was_moved_away_is_no_error(tmp_path):
+    with BagWriter(tmp_path / "made", max_files=2) as writer:
+        for time in range(4):
+            writer.write("/a", msg.get_message("std_msgs/msg/String")(), time)
+            _, current = writer.split()
+            if time == 0:
+                os.rename(tmp_path / "made" / "made_0.mcap", tmp_path / "kept.mcap")
+    names = {path.name for path in (tmp_path / "made").iterdir()}
+    assert names == {"made_3.mcap", os.path.basename(current), "metadata.yaml"}
+    with open_bag(tmp_path / "made") as bag:
+        assert [message.log_time_ns for message in bag] == [3]
+
+
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="Windows has no fork()")
 def test_a_fork_does_not_finish_the_bag_of_its_parent(tmp_path):
     program = """

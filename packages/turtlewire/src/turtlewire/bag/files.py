@@ -29,10 +29,18 @@ _ZIP_MAGIC = b"PK\x03\x04"
 
 
 def storage_files(folder: str) -> list[str]:
-    """Return the storage files of a folder without metadata, in the order of their numbers."""
+    """Return the storage files of a folder without metadata, in the order of their numbers.
+
+    Of a file and its compressed copy, which a killed recorder has left, only the file.
+    """
     endings = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
-    names = [entry.name for entry in os.scandir(folder) if entry.is_file()]
-    names = [name for name in names if name.endswith(endings)]
+    found = {entry.name for entry in os.scandir(folder) if entry.is_file()}
+    names = [
+        name
+        for name in found
+        if name.endswith(endings)
+        and not (name.endswith(".zstd") and name.removesuffix(".zstd") in found)
+    ]
     return sorted(names, key=lambda name: (_number(name), name))
 
 

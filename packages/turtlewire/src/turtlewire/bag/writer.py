@@ -6,6 +6,7 @@ import atexit
 import errno
 import os
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
@@ -523,7 +524,8 @@ class BagWriter:
     def _remove_old_files(self) -> None:
         """Remove the oldest files, so that one more is not too many."""
         while self._max_files and len(self.metadata.paths) >= self._max_files:
-            os.remove(os.path.join(self.path, self.metadata.paths.pop(0)))
+            with suppress(FileNotFoundError):  # the user has moved it away
+                os.remove(os.path.join(self.path, self.metadata.paths.pop(0)))
             self.metadata.files.pop(0)
             for key, count in self._counts_of_files.pop(0).items():
                 if key in self._channels:
