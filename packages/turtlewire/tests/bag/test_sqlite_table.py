@@ -2,6 +2,8 @@
 
 import random
 import sqlite3
+import subprocess
+import sys
 from contextlib import closing
 
 import pytest
@@ -38,9 +40,9 @@ def write(path, rows, page_bytes=4096, tables=TABLES):
 def natively(path, topics=(1, 2), window=ALL):
     """Return the rows of the native reader, and the id after which SQL has to read."""
     found = []
-    with closing(sqlite3.connect(path)) as database:
+    with open(path, "rb") as file, closing(sqlite3.connect(path)) as database:
         database.text_factory = lambda name: name.decode("utf-8", "replace")
-        blocks = table_blocks(database, path, topics, window)
+        blocks = table_blocks(database, file, topics, window)
         while True:
             try:
                 found += next(blocks)
@@ -89,8 +91,8 @@ def test_the_topics_and_the_window_are_inclusive(tmp_path):
 def test_many_rows_come_in_blocks(tmp_path):
     rows = [(k, 1, 10**18 + k, b"12345678") for k in range(1, 100_001)]
     path = write(tmp_path / "a.db3", rows, 512)  # a tree of four levels
-    with closing(sqlite3.connect(path)) as database:
-        blocks = list(table_blocks(database, path, (1,), ALL))
+    with open(path, "rb") as file, closing(sqlite3.connect(path)) as database:
+        blocks = list(table_blocks(database, file, (1,), ALL))
     assert len(blocks) > 3
     assert [row for block in blocks for row in block] == [(row[2], row[3]) for row in rows]
 
@@ -138,17 +140,19 @@ def test_a_log_file_is_left_to_sql(tmp_path):
 
 def test_other_processes_cannot_change_the_file_meanwhile(tmp_path):
     path = write(tmp_path / "a.db3", [(k, 1, k, bytes(1 << 17)) for k in range(1, 9)])
-    with (
-        closing(sqlite3.connect(path)) as database,
-        closing(sqlite3.connect(path, timeout=0)) as writer,
-    ):
-        blocks = table_blocks(database, path, (1,), ALL)
+    program = (
+        "import sqlite3, sys\n"
+        "with sqlite3.connect(sys.argv[1], timeout=0) as writer:\n"
+        "    writer.execute('DELETE FROM messages')\n"
+    )
+    delete = (sys.executable, "-c", program, str(path))
+    with closing(SqliteFile(str(path))) as opened:
+        blocks = opened.unordered_blocks((1,), *ALL)
         next(blocks)
-        with pytest.raises(sqlite3.OperationalError, match="locked"), writer:
-            writer.execute("DELETE FROM messages")
+        refused = subprocess.run(delete, capture_output=True, text=True, check=False)
+        assert "database is locked" in refused.stderr
         blocks.close()
-        with writer:
-            writer.execute("DELETE FROM messages")
+        subprocess.run(delete, check=True)
 
 
 def test_columns_are_in_the_order_of_time(tmp_path):

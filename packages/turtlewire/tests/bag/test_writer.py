@@ -17,6 +17,7 @@ from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
 from tests.bags import START, contents, transform, write_bag
 
+import turtlewire
 from turtlewire import msg
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.errors import BagError
@@ -48,6 +49,10 @@ def test_written_data_is_read(tmp_path, way):
         assert bag.problems == []
         assert (len(bag.metadata.paths) > 1) == ("split" in way or way == "mcap file")
         assert sum(file.message_count for file in bag.metadata.files) == len(expected)
+        texts = bag.columns("/chatter", "data")["data"]
+        assert list(texts) == [f"number {i}" for i in range(9, 100, 10)]
+    buffer = turtlewire.Buffer.from_bag(tmp_path / "made")
+    assert buffer.can_transform("odom", "camera", START + 500_000_000)
 
 
 @pytest.mark.parametrize("way", [way for way in WAYS if "sqlite3" in way])

@@ -18,7 +18,7 @@ from collections import Counter
 from collections.abc import Collection, Generator, Iterator
 from contextlib import suppress
 from itertools import islice
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 from urllib.parse import quote
 
 from turtlewire.bag.metadata import TopicInfo, full_type_name, parse_metadata
@@ -47,13 +47,13 @@ _COLUMNS = [("id", "INTEGER", 1), ("topic_id", "INTEGER", 0), ("timestamp", "INT
 
 
 def table_blocks(
-    database: sqlite3.Connection, path: str, topics: Collection[int], window: tuple[int, int]
+    database: sqlite3.Connection, file: BinaryIO, topics: Collection[int], window: tuple[int, int]
 ) -> Generator[list[LoggedBytes], None, int | None]:
     """Yield the messages of topics in the order of the table, some at a time.
 
     Args:
-        database: The open file; while messages are read, other processes cannot change it.
-        path: Where it is.
+        database: The open database; while messages are read, other processes cannot change it.
+        file: The same file. Closing it would end the locks of the database.
         topics: The ids of the topics.
         window: The first and the last log time.
 
@@ -61,7 +61,7 @@ def table_blocks(
         None if all messages were read. Otherwise the id of the last row that was read: the rows
         after it are for SQL, because they are damaged or not in rosbag2's form.
     """
-    if asked_core() == "python" or os.path.exists(path + "-wal"):
+    if asked_core() == "python" or os.path.exists(file.name + "-wal"):
         return BEFORE_ALL_IDS
     guard = database.cursor()
     try:
@@ -70,7 +70,7 @@ def table_blocks(
     except (sqlite3.Error, UnicodeDecodeError):  # SQL will say what is damaged
         return BEFORE_ALL_IDS
     try:
-        table = root and _table(path, root)
+        table = root and _table(file, root)
         if not table:
             return BEFORE_ALL_IDS
         is_more = True
@@ -95,13 +95,12 @@ def _root_page(database: sqlite3.Connection) -> int | None:
     return next((root for (root,) in database.execute(query) if isinstance(root, int)), None)
 
 
-def _table(path: str, root: int) -> MessageTable | None:
+def _table(file: BinaryIO, root: int) -> MessageTable | None:
     try:
         from turtlewire._native import MessageTable
     except ImportError:
         return None
-    with open(path, "rb") as file:
-        pages = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)  # the table keeps it
+    pages = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)  # the table keeps it
     page = int.from_bytes(pages[16:18], "big")
     page = 1 << 16 if page == 1 else page
     try:
@@ -134,6 +133,8 @@ class SqliteFile:
         self.problems: list[str] = []
         if not os.path.exists(path):
             raise FileNotFoundError(f"{path} does not exist")
+        # Open as long as the database: see `table_blocks`. A decompressed copy has no name by then.
+        self._file = open(path, "rb")  # noqa: SIM115
         # A file with a write-ahead log beside it was not closed: sqlite must be allowed to replay
         # it.
         mode = "ro" if not os.path.exists(path + "-wal") else "rw"
@@ -153,11 +154,11 @@ class SqliteFile:
             if missing:
                 self._read_to_the_damage(f"its last {missing:,} bytes are missing")
         except (*_DAMAGE, KeyError, TypeError, BagError) as error:
-            self._database.close()
+            self.close()
             lacks = f" (its last {missing:,} bytes are missing)" if missing else ""
             raise BagError(f"{path} is not a sqlite3 file of a bag: {error}{lacks}") from None
         except BaseException:
-            self._database.close()
+            self.close()
             raise
 
     @property
@@ -169,6 +170,7 @@ class SqliteFile:
     def close(self) -> None:
         """Release the file."""
         self._database.close()
+        self._file.close()
 
     def _read_topics(self) -> dict[int, TopicInfo]:
         return {
@@ -184,14 +186,17 @@ class SqliteFile:
 
     def _missing_bytes(self) -> int:
         """Return the number of bytes missing by the header; 0 while a log file is present."""
-        with open(self.path, "rb") as file:
-            header = file.read(32)
+        self._file.seek(0)
+        header = self._file.read(32)
         page = int.from_bytes(header[16:18], "big")
         self._page_bytes = 1 << 16 if page <= 1 else page
         told = self._page_bytes * int.from_bytes(header[28:32], "big")
         if os.path.exists(self.path + "-wal"):
             return 0
-        return max(0, told - os.path.getsize(self.path))
+        return max(0, told - self._size())
+
+    def _size(self) -> int:
+        return os.fstat(self._file.fileno()).st_size
 
     def counts(self) -> dict[int, int]:
         """Return the number of readable messages by topic id, for which all rows are read once."""
@@ -226,7 +231,7 @@ class SqliteFile:
                 found.append((log_time, number, topic))
                 sizes.append(size)
         # sqlite3 reads the missing part of a cut page as zeros: do not trust such a page.
-        doubtful = self._page_bytes if os.path.getsize(self.path) % self._page_bytes else 0
+        doubtful = self._page_bytes if self._size() % self._page_bytes else 0
         while found and doubtful > 0:
             found.pop()
             doubtful -= sizes.pop()
@@ -313,7 +318,7 @@ class SqliteFile:
         window = _window(start_ns, end_ns)
         first, last = self.times()
         if start_ns <= first and last <= end_ns:  # the index is of no use
-            after = yield from table_blocks(self._database, self.path, topic_ids, window)
+            after = yield from table_blocks(self._database, self._file, topic_ids, window)
             if after is None:
                 return
         else:
