@@ -109,6 +109,20 @@ def test_a_file_that_is_there_twice_is_read_once(tmp_path):
     assert reindex(tmp_path / "bag").message_count == 10
 
 
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_damage_of_a_compressed_file_names_the_file(tmp_path, storage):
+    file = written(tmp_path / "bag", storage, 5000, compression_mode="FILE")
+    whole = file.read_bytes()
+    file.write_bytes(whole[:-10])
+    told = []
+    reindex(tmp_path / "bag", told.append)
+    assert len(told) == 2
+    assert all(each.startswith(f"{file}: ") for each in told)
+    file.write_bytes(whole[:100])
+    with pytest.raises(BagError, match=f"^{file} is neither .*, as far as it was decompressed$"):
+        open_bag(file)
+
+
 def test_channels_in_other_encodings_are_repaired(tmp_path):
     (tmp_path / "bag").mkdir()
     file = tmp_path / "bag" / "bag_0.mcap"

@@ -67,7 +67,7 @@ def test_a_storage_file_walks_its_transforms_in_its_own_way(tmp_path, monkeypatc
         def messages(self, *_):
             raise AssertionError("an MCAP file has chunks")
 
-    monkeypatch.setattr("turtlewire.bag.reader.open_storage", lambda p: Wrapped(open_storage(p)))
+    monkeypatch.setattr("turtlewire.bag.reader.open_storage", lambda *a: Wrapped(open_storage(*a)))
     report = Buffer.from_bag(path).bag_report
     assert (report.messages, report.problems) == (101, [])
     assert asked == [["/tf_static"], ["/tf"]]

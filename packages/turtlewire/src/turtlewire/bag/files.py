@@ -119,8 +119,12 @@ def joined(paths: list[str], parts: list[BagMetadata]) -> BagMetadata:
     )
 
 
-def open_storage(path: str) -> StorageFile:
+def open_storage(path: str, name: str = "") -> StorageFile:
     """Open a ``.mcap`` or ``.db3`` file; its first bytes decide which format it has.
+
+    Args:
+        path: The file.
+        name: The path in errors; by default the same.
 
     Raises:
         FileNotFoundError: The file does not exist.
@@ -129,12 +133,12 @@ def open_storage(path: str) -> StorageFile:
     with open(path, "rb") as file:
         start = file.read(len(_SQLITE_MAGIC))
     if start.startswith(MAGIC):
-        return McapStorage(path)
+        return McapStorage(path, name)
     if start == _SQLITE_MAGIC:
-        return SqliteStorage(path)
+        return SqliteStorage(path, name)
     if start.startswith(ROS1_MAGIC):
-        return Ros1Storage(path)
+        return Ros1Storage(path, name)
     is_saved = start.startswith(_ZIP_MAGIC)
-    raise BagError(f"{path} is neither an MCAP nor a sqlite3 file").with_hint(
+    raise BagError(f"{name or path} is neither an MCAP nor a sqlite3 file").with_hint(
         "If Buffer.save wrote it, read it with Buffer.load." if is_saved else ""
     )

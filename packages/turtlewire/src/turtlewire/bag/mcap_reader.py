@@ -48,7 +48,7 @@ class McapFile:
     """An open MCAP file.
 
     Attributes:
-        path: Where it is.
+        path: Where it is; of a decompressed copy, the compressed file.
         channels: Its channels by id.
         schemas: Its schemas by id.
         metadata: Contents of its Metadata records by name; of several with one name, the last.
@@ -64,8 +64,8 @@ class McapFile:
         OSError: The file cannot be opened.
     """
 
-    def __init__(self, path: str) -> None:
-        self.path = path
+    def __init__(self, path: str, name: str = "") -> None:
+        self.path = name or path
         self.channels: dict[int, Channel] = {}
         self.schemas: dict[int, Schema] = {}
         self.metadata: dict[str, dict[str, str]] = {}

@@ -33,9 +33,9 @@ __all__ = ["McapStorage"]
 class McapStorage:
     """A file in the MCAP format; see `turtlewire.bag.storage.StorageFile`."""
 
-    def __init__(self, path: str) -> None:
-        self.path = path
-        self.file = McapFile(path)
+    def __init__(self, path: str, name: str = "") -> None:
+        self.file = McapFile(path, name)
+        self.path = self.file.path
         self.problems = self.file.problems
         self._topics: dict[int, TopicInfo] = {}
         self._classes: dict[int, type[BagMessage]] = {}

@@ -365,23 +365,21 @@ class Bag:
             self.complain(f"{full}: only {found:,} of {expected:,} messages found; it is damaged")
 
     def _open(self, path: str) -> StorageFile:
-        plain = self._plain_file(path)
+        full = os.path.join(self._folder, path)
         try:
-            file = open_storage(plain)
+            file = open_storage(self._plain_file(full), full)
         except BagError as error:
             if not path.endswith(".zstd"):
                 raise
-            full = os.path.join(self._folder, path)
-            raise BagError(f"{full}: what was decompressed of it cannot be read: {error}") from None
+            raise BagError(f"{error}, as far as it was decompressed") from None
         if self._scratch is not None and os.name == "posix":
             # The open file keeps its bytes, and nothing stays when the process is killed.
             shutil.rmtree(self._scratch)
             self._scratch = None
         return file
 
-    def _plain_file(self, path: str) -> str:
+    def _plain_file(self, full: str) -> str:
         """Return the file itself, or a decompressed copy that lives as long as the bag is open."""
-        full = os.path.join(self._folder, path)
         if not full.endswith(".zstd"):
             return full
         if self._scratch is None:

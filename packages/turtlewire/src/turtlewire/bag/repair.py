@@ -137,7 +137,7 @@ def reindex(
     problems, copies = [], []
     with Bag(path, trust_metadata=False) as bag:
         for file in bag.files():
-            if file.path.startswith(bag.path):  # not a decompressed copy elsewhere
+            if not file.path.endswith(".zstd"):
                 try:
                     copies.append((file.path, repaired_copy(file)))
                 except OSError as error:

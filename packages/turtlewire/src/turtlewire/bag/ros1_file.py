@@ -53,7 +53,7 @@ class Ros1File:
     """An open bag of ROS 1.
 
     Attributes:
-        path: Where it is.
+        path: Where it is; of a decompressed copy, the compressed file.
         connections: The connections by number.
         chunks: The chunks, in the order of the file.
         counts: How many messages each connection has.
@@ -64,8 +64,8 @@ class Ros1File:
         OSError: The file cannot be opened.
     """
 
-    def __init__(self, path: str) -> None:
-        self.path = path
+    def __init__(self, path: str, name: str = "") -> None:
+        self.path = name or path
         self.connections: dict[int, Connection] = {}
         self.chunks: list[ChunkIndex] = []
         self.counts: dict[int, int] = {}

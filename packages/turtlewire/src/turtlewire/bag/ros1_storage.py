@@ -49,9 +49,9 @@ class Ros1Storage:
         BagError: The file is not a bag of ROS 1.
     """
 
-    def __init__(self, path: str) -> None:
-        self.path = path
-        self.file = Ros1File(path)
+    def __init__(self, path: str, name: str = "") -> None:
+        self.file = Ros1File(path, name)
+        self.path = self.file.path
         self.problems = self.file.problems
         self._types: dict[int, Ros1Messages] = {}
         self._classes: dict[int, type[BagMessage]] = {}

@@ -119,7 +119,7 @@ class SqliteFile:
     """An open sqlite3 file of a bag.
 
     Attributes:
-        path: Where it is.
+        path: Where it is; of a decompressed copy, the compressed file.
         topics: Its topics by id, without their counts, which `counts` returns.
         problems: What is damaged, one sentence each.
 
@@ -128,8 +128,8 @@ class SqliteFile:
         OSError: The file does not exist.
     """
 
-    def __init__(self, path: str) -> None:
-        self.path = path
+    def __init__(self, path: str, name: str = "") -> None:
+        self.path = name or path
         self.problems: list[str] = []
         if not os.path.exists(path):
             raise FileNotFoundError(f"{path} does not exist")
@@ -156,7 +156,7 @@ class SqliteFile:
         except (*_DAMAGE, KeyError, TypeError, BagError) as error:
             self.close()
             lacks = f" (its last {missing:,} bytes are missing)" if missing else ""
-            raise BagError(f"{path} is not a sqlite3 file of a bag: {error}{lacks}") from None
+            raise BagError(f"{self.path} is not a sqlite3 file of a bag: {error}{lacks}") from None
         except BaseException:
             self.close()
             raise
@@ -191,7 +191,7 @@ class SqliteFile:
         page = int.from_bytes(header[16:18], "big")
         self._page_bytes = 1 << 16 if page <= 1 else page
         told = self._page_bytes * int.from_bytes(header[28:32], "big")
-        if os.path.exists(self.path + "-wal"):
+        if os.path.exists(self._file.name + "-wal"):
             return 0
         return max(0, told - self._size())
 

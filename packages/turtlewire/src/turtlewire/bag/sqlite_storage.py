@@ -26,9 +26,9 @@ __all__ = ["SqliteStorage"]
 class SqliteStorage:
     """A sqlite3 file; see `turtlewire.bag.storage.StorageFile`."""
 
-    def __init__(self, path: str) -> None:
-        self.path = path
-        self.file = SqliteFile(path)
+    def __init__(self, path: str, name: str = "") -> None:
+        self.file = SqliteFile(path, name)
+        self.path = self.file.path
         self.problems = self.file.problems
         self._classes: dict[int, type[BagMessage]] = {}
 
