@@ -100,6 +100,13 @@ def test_a_copy_that_a_killed_repair_left_is_replaced(tmp_path, storage):
     assert {each.name for each in path.iterdir()} == names
 
 
+def test_a_file_instead_of_a_folder_is_refused_with_the_folder(tmp_path):
+    file = written(tmp_path / "bag", "mcap", 10)
+    with pytest.raises(BagError, match="is a file\n") as refused:
+        reindex(file)
+    assert refused.value.hint == f"Pass the folder of the bag: reindex('{tmp_path / 'bag'}')"
+
+
 def test_a_file_that_is_there_twice_is_read_once(tmp_path):
     file = written(tmp_path / "bag", "mcap", 10)
     write_zstd_file(str(file), f"{file}.zstd")  # and the recorder was killed before it removed it

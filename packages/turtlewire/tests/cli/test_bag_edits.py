@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import resource
 import signal
@@ -15,6 +16,7 @@ from tests.bags import START, transform, write_bag
 from ros2cli.main import main as ros2
 from turtlewire import msg
 from turtlewire.bag import BagWriter, describe_bag, open_bag
+from turtlewire.errors import BagError
 
 from ..bag.conftest import GOLDEN
 from .test_bags import run
@@ -248,3 +250,14 @@ def test_sizes(text, expected):
     from turtlewire.bag.times import size_bytes
 
     assert size_bytes(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("size", "error"),
+    [("1XB", BagError), (f"{'9' * 400}TB", BagError), (1.5, TypeError), (math.nan, TypeError)],
+)
+def test_wrong_sizes_are_rejected(size, error):
+    from turtlewire.bag.times import size_bytes
+
+    with pytest.raises(error):
+        size_bytes(size)

@@ -132,8 +132,13 @@ def reindex(
 
     Raises:
         FileNotFoundError: The folder does not exist.
-        BagError: The folder contains no file of a bag, or an invalid one.
+        BagError: ``path`` is a file, or contains no file of a bag, or an invalid one.
     """
+    if os.path.isfile(path):
+        folder = os.path.dirname(os.path.abspath(os.fsdecode(path)))
+        raise BagError(f"{os.fsdecode(path)} is a file").with_hint(
+            f"Pass the folder of the bag: reindex({folder!r})"
+        )
     problems, copies = [], []
     with Bag(path, trust_metadata=False) as bag:
         for file in bag.files():

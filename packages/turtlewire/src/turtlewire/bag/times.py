@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import re
 from datetime import datetime
 from typing import TYPE_CHECKING
@@ -31,7 +32,7 @@ _DATE = re.compile(
 )
 #: Fewer digits are more likely to be meant as seconds than as nanoseconds since 1970.
 _LEAST_DIGITS = 10
-_SIZE = re.compile(r"(\d+(?:\.\d+)?) ?(B|[kKMGT]i?B?)?")
+_SIZE = re.compile(r"(\d{1,15}(?:\.\d{1,15})?) ?(B|[kKMGT]i?B?)?")
 _FORMS = "write an offset like 10s or 1m20s, a date like 2024-05-01T12:00:00Z, or nanoseconds"
 
 
@@ -101,9 +102,10 @@ def size_bytes(size: int | str) -> int:
 
     Raises:
         BagError: The text is not a size.
+        TypeError: ``size`` is neither an integer nor a text.
     """
     if not isinstance(size, str):
-        return size
+        return operator.index(size)
     found = _SIZE.fullmatch(size)
     if found is None:
         raise BagError(f"'{size}' is not a size: write one like 500MB, 1GB or 512MiB")
