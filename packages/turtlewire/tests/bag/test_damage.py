@@ -475,6 +475,18 @@ def test_a_damaged_metadata_file_names_the_remedy(tmp_path, content):
     assert reindex(folder).message_count == 111
 
 
+@pytest.mark.parametrize("count", ["-1", ".inf", str(2**63)])
+def test_an_impossible_number_of_messages_names_the_remedy(tmp_path, count):
+    folder = write_bag(tmp_path / "made")
+    text = (folder / "metadata.yaml").read_text()
+    (folder / "metadata.yaml").write_text(
+        text.replace("message_count: 111", f"message_count: {count}")
+    )
+    with pytest.raises(BagError) as error:
+        open_bag(folder)
+    assert "ros2 bag reindex" in error.value.hint
+
+
 @pytest.mark.parametrize("room_mib", [490, 510])
 def test_a_file_that_grows_too_much_takes_half_of_the_room(tmp_path, monkeypatch, room_mib):
     free = [1000 << 20]  # when it begins; then what is left of the room

@@ -8,6 +8,7 @@ policies up to 8, words since. The content determines the form, as in rosbag2.
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -216,14 +217,13 @@ def parse_metadata(content: dict[str, Any], where: str) -> BagMetadata:
     """
     try:
         return _metadata(content)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, OverflowError, AttributeError) as error:
         reason = f"the key {error} is missing" if isinstance(error, KeyError) else str(error)
         raise BagError(f"{where}: {reason}") from None
 
 
 def _metadata(content: dict[str, Any]) -> BagMetadata:
     start = int(content["starting_time"]["nanoseconds_since_epoch"])
-    count = int(content["message_count"])
     return BagMetadata(
         storage=str(content["storage_identifier"]),
         paths=[str(path) for path in content["relative_file_paths"]],
@@ -231,7 +231,7 @@ def _metadata(content: dict[str, Any]) -> BagMetadata:
         topics=[_topic(entry) for entry in content["topics_with_message_count"] or ()],
         start_ns=0 if start == _UNKNOWN_START else start,
         duration_ns=int(content["duration"]["nanoseconds"]),
-        message_count=count,
+        message_count=_count(content),
         version=int(content["version"]),
         compression_format=content.get("compression_format") or "",
         compression_mode=(content.get("compression_mode") or "").upper().replace("NONE", ""),
@@ -240,12 +240,19 @@ def _metadata(content: dict[str, Any]) -> BagMetadata:
     )
 
 
+def _count(entry: dict[str, Any]) -> int:
+    count = int(entry["message_count"])
+    if not 0 <= count <= sys.maxsize:
+        raise ValueError(f"there cannot be {count} messages")
+    return count
+
+
 def _file(entry: dict[str, Any]) -> FileInfo:
     return FileInfo(
         str(entry["path"]),
         int(entry["starting_time"]["nanoseconds_since_epoch"]),
         int(entry["duration"]["nanoseconds"]),
-        int(entry["message_count"]),
+        _count(entry),
     )
 
 
@@ -257,7 +264,7 @@ def _topic(entry: dict[str, Any]) -> TopicInfo:
         topic.get("serialization_format") or "",
         profiles_from_yaml(topic.get("offered_qos_profiles"), f"QoS of {topic['name']}"),
         topic.get("type_description_hash") or "",
-        int(entry["message_count"]),
+        _count(entry),
     )
 
 
