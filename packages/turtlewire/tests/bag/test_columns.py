@@ -299,6 +299,20 @@ def test_damaged_messages_and_other_encodings(tmp_path):
         bag.columns("/json", "x")
 
 
+@pytest.mark.parametrize(
+    ("type_name", "field"),
+    [("std_msgs/msg/String", "data"), ("sensor_msgs/msg/JointState", "name")],
+)
+def test_a_text_that_is_not_utf_8_is_named(tmp_path, type_name, field):
+    text = "four" if field == "data" else ["four"]
+    data = msg.serialize(msg.get_message(type_name)(**{field: text}))
+    with BagWriter(tmp_path / "bad") as writer:
+        writer.add_topic("/text", type_name)
+        writer.write("/text", data.replace(b"four", b"\xff\xfe\xfd\xfc"), START)
+    with open_bag(tmp_path / "bad") as bag, pytest.raises(CdrError, match=f"field '{field}"):
+        bag.columns("/text", field)
+
+
 def test_big_endian_messages(tmp_path):
     name = "geometry_msgs/msg/PointStamped"
     message = random_message(JAZZY, name, random.Random(3))

@@ -192,7 +192,10 @@ def _read_natively(
                 return None
     if damage:
         raise damage[0]
-    return collector.finished()
+    try:
+        return collector.finished()
+    except UnicodeDecodeError:  # decoding the messages says which field it is
+        return None
 
 
 def _native_reader() -> Any:
