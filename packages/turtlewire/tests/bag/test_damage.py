@@ -22,7 +22,9 @@ from turtlewire import Buffer
 from turtlewire.bag import BagWriter, describe_bag, open_bag, reindex
 from turtlewire.bag.compression import compress, decompress, most_bytes, unpack_file
 from turtlewire.bag.mcap_records import Op
+from turtlewire.bag.qos_yaml import profiles_from_yaml, profiles_to_text
 from turtlewire.errors import BagError
+from turtlewire.wire.qos import QoS
 
 from .conftest import GOLDEN
 
@@ -485,6 +487,13 @@ def test_an_impossible_number_of_messages_names_the_remedy(tmp_path, count):
     with pytest.raises(BagError) as error:
         open_bag(folder)
     assert "ros2 bag reindex" in error.value.hint
+
+
+@pytest.mark.parametrize("depth", ["x", ".inf", ".nan", "[]"])
+def test_an_impossible_depth_is_damage(depth):
+    text = profiles_to_text([QoS(depth=3)], 9).replace("depth: 3", f"depth: {depth}")
+    with pytest.raises(BagError, match=r"^here: not a list of QoS profiles: "):
+        profiles_from_yaml(text, "here")
 
 
 @pytest.mark.parametrize("room_mib", [490, 510])

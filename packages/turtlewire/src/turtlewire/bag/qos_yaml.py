@@ -73,7 +73,7 @@ def profiles_from_yaml(offered: str | list[dict[str, Any]] | None, where: str) -
     profiles = load_yaml(offered, where) if isinstance(offered, str) else offered
     try:
         return [_profile(profile) for profile in profiles or ()]
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise BagError(f"{where}: not a list of QoS profiles: {error!r}") from None
 
 
