@@ -49,6 +49,7 @@ nb::object lookup_newest(BufferObject& self, const Values<4>& given) {
   const Stamp max_age = age.is_none() ? kForever : nanoseconds_of(age, "max_age_ns");
   if (!age.is_none() && now == kLatest)
     throw nb::value_error("max_age_ns needs now_ns, the present by the clock of the stamps");
+  if (max_age < 0) throw nb::value_error("max_age_ns must not be negative");
   Found found;
   Failure failure;
   {
@@ -97,7 +98,7 @@ nb::object time_range(BufferObject& self, const Values<2>& given) {
     }
   }
   if (failure.status != Status::ok) throw_failure(self, failure, Question::lookup);
-  if (newest == kLatest) return nb::none();
+  if (newest == kLatest || oldest == kLatest) return nb::none();
   return nb::make_tuple(oldest, newest);
 }
 

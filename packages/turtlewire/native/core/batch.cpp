@@ -62,8 +62,7 @@ bool BatchLookup::resolve(const Tree& tree) {
 Stamp BatchLookup::latest() {
   const SharedBuffer::View tree(shared_);
   Stamp t = kLatest;
-  if (target_ != source_ && resolve(*tree))
-    tree->latest_common_time(target_id_, source_id_, t, nullptr);
+  if (resolve(*tree)) tree->latest_common_time(target_id_, source_id_, t, nullptr);
   return t;
 }
 
@@ -117,7 +116,7 @@ void BatchLookup::scalar_block(const Tree& tree, const Path& path, std::span<con
 
 Status BatchLookup::find(const Tree& tree, const Path& path, Stamp t, Pose& pose) const {
   const Status status = tree.lookup(path, t, pose, nullptr);
-  if (status == Status::ok || beyond_ == 0) return status;
+  if (status == Status::ok || beyond_ == 0 || t == kLatest) return status;
   const Rule rule{.t = t, .beyond = beyond_};
   return tree.lookup(path.target, path.source, rule, pose, nullptr, nullptr);
 }
@@ -355,7 +354,9 @@ std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityReq
       std::size_t step = 0;
       while (step < 3 && status[step][i] == Status::ok) ++step;
       statuses[begin + i] = status[step][i];
-      if (statuses[begin + i] != Status::ok && !fault) {
+      if (statuses[begin + i] == Status::ok) continue;
+      velocities[begin + i] = {kNoPose.translation, kNoPose.translation};
+      if (!fault) {
         fault = asked[step];
         fault->t = asked_times[step][i];
       }

@@ -36,7 +36,16 @@ inline constexpr double kFourTermsCosine = 0.9997;
 inline constexpr double kNineTermsCosine = 0.98;
 
 // The weights of SLERP for an angle of at most a quarter turn (cosine >= 0; q and -q are one
-// rotation).
+// rotation), with any ratio.
+inline Weights exact_weights(double cosine, double ratio) {
+  const double angle = std::acos(std::min(cosine, 1.0));
+  // The arc of a small angle is a straight line to the last bit.
+  if (angle < 1e-8) return {1.0 - ratio, ratio};
+  const double scale = 1.0 / std::sin(angle);
+  return {std::sin((1.0 - ratio) * angle) * scale, std::sin(ratio * angle) * scale};
+}
+
+// The same for a ratio from 0 to 1: the truncated series fail far outside of it.
 inline Weights arc_weights(double cosine, double ratio) {
   if (cosine > kFourTermsCosine) [[likely]] {
     return {detail::arc_weight<4>(1.0 - ratio, cosine - 1.0),
@@ -46,9 +55,7 @@ inline Weights arc_weights(double cosine, double ratio) {
     return {detail::arc_weight<9>(1.0 - ratio, cosine - 1.0),
             detail::arc_weight<9>(ratio, cosine - 1.0)};
   }
-  const double angle = std::acos(std::min(cosine, 1.0));
-  const double scale = 1.0 / std::sin(angle);
-  return {std::sin((1.0 - ratio) * angle) * scale, std::sin(ratio * angle) * scale};
+  return exact_weights(cosine, ratio);
 }
 
 // The sum of both, by the shorter way: q and -q are one rotation.
@@ -58,25 +65,29 @@ inline Quat weigh(const Quat& older, const Quat& newer, Weights weights, double 
           wo * older.w + wn * newer.w};
 }
 
-inline Quat slerp(const Quat& older, const Quat& newer, double ratio) {
+template <auto Arc = arc_weights>
+Quat slerp(const Quat& older, const Quat& newer, double ratio) {
   const double cosine = dot(older, newer);
-  return weigh(older, newer, arc_weights(std::fabs(cosine), ratio), cosine);
+  return weigh(older, newer, Arc(std::fabs(cosine), ratio), cosine);
 }
 
 // Of quaternions of any length: by the angle between them; of one direction, it is the older.
-inline Quat slerp_scaling(const Quat& older, const Quat& newer, double ratio) {
+template <auto Arc = arc_weights>
+Quat slerp_scaling(const Quat& older, const Quat& newer, double ratio) {
   const double cosine = dot(older, newer) / std::sqrt(dot(older, older) * dot(newer, newer));
   if (std::fabs(cosine) >= 1.0) return older;
-  return weigh(older, newer, arc_weights(std::fabs(cosine), ratio), cosine);
+  return weigh(older, newer, Arc(std::fabs(cosine), ratio), cosine);
 }
 
-inline Pose interpolate(const Pose& older, const Pose& newer, double ratio) {
+template <auto Arc = arc_weights>
+Pose interpolate(const Pose& older, const Pose& newer, double ratio) {
   return {(1.0 - ratio) * older.translation + ratio * newer.translation,
-          slerp(older.rotation, newer.rotation, ratio)};
+          slerp<Arc>(older.rotation, newer.rotation, ratio)};
 }
-inline Pose interpolate_scaling(const Pose& older, const Pose& newer, double ratio) {
+template <auto Arc = arc_weights>
+Pose interpolate_scaling(const Pose& older, const Pose& newer, double ratio) {
   return {(1.0 - ratio) * older.translation + ratio * newer.translation,
-          slerp_scaling(older.rotation, newer.rotation, ratio)};
+          slerp_scaling<Arc>(older.rotation, newer.rotation, ratio)};
 }
 
 }  // namespace turtlewire

@@ -226,7 +226,7 @@ class Link {
     if (is_far || samples_.parent(i) != samples_.parent(i + 1) ||
         samples_.stamp(i) == samples_.stamp(i + 1))
       return reading;
-    return between(i, t);
+    return between<exact_weights>(i, t);
   }
 
   // Whether a dynamic link of one parent has a pose at `t`, without computing it.
@@ -257,14 +257,16 @@ class Link {
     return {ReadStatus::ok, samples_.parent(i), samples_[i].pose};
   }
   // The pose at `t` by the motion between a sample and the next.
+  template <auto Arc = arc_weights>
   Reading between(std::size_t i, Stamp t) const {
-    return {ReadStatus::ok, samples_.parent(i), interpolated(samples_.pair(i), t)};
+    return {ReadStatus::ok, samples_.parent(i), interpolated<Arc>(samples_.pair(i), t)};
   }
 
+  template <auto Arc = arc_weights>
   Pose interpolated(const Samples::Pair& pair, Stamp t) const {
     const Pose &older = pair.older->pose, &newer = pair.newer->pose;
-    return has_scaling_ ? interpolate_scaling(older, newer, pair.ratio(t))
-                        : interpolate(older, newer, pair.ratio(t));
+    return has_scaling_ ? interpolate_scaling<Arc>(older, newer, pair.ratio(t))
+                        : interpolate<Arc>(older, newer, pair.ratio(t));
   }
 
   void append(const Sample& sample, FrameId parent) {

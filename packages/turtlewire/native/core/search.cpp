@@ -93,8 +93,8 @@ Status Tree::latest_common_time(FrameId target, FrameId source, Stamp& t, Failur
 
 Reading Rule::read(const Link& link) const {
   if (newest) {
-    const bool is_old =
-        max_age != kForever && !link.is_static() && link.newest() < earlier(t, max_age);
+    const Stamp reached = link.reached();
+    const bool is_old = max_age != kForever && reached != kLatest && reached < earlier(t, max_age);
     return is_old ? Reading{ReadStatus::future} : link.read(kLatest);
   }
   return beyond != 0 ? link.read_beyond(t, beyond) : link.read(t);
@@ -172,7 +172,8 @@ Status Tree::climb(FrameId target, FrameId source, const Rule& rule, Pose* targe
                                           : inverse(down.top_from_start);
     *target_from_source = {p.translation, stored(p.rotation)};
   }
-  if (used != nullptr) leave_difference(*used, down_used);
+  if (used != nullptr && met) leave_difference(*used, down_used);
+  if (used != nullptr && !met) *used = std::move(down_used);
   return Status::ok;
 }
 

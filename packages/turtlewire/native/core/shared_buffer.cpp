@@ -79,14 +79,13 @@ Status SharedBuffer::find(FrameId target, FrameId source, Stamp beyond, Found& f
                           Failure& failure) {
   const Status status =
       tree_.lookup(tree_.path(target, source), found.stamp, found.target_from_source, &failure);
-  if (status == Status::ok || beyond == 0) return status;
-  Failure still;
+  // Without a latest common time, there is no time to extrapolate to.
+  if (status == Status::ok || beyond == 0 || found.stamp == kLatest) return status;
+  const bool latest = failure.latest;
+  failure = {};
+  failure.latest = latest;
   const Rule rule{.t = found.stamp, .beyond = beyond};
-  if (tree_.lookup(target, source, rule, found.target_from_source, nullptr, &still) == Status::ok) {
-    failure = {};
-    return Status::ok;
-  }
-  return status;
+  return tree_.lookup(target, source, rule, found.target_from_source, nullptr, &failure);
 }
 
 Status SharedBuffer::test(const Request& request, Failure& failure) {

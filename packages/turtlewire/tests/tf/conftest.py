@@ -139,6 +139,31 @@ class World:
             return ("full", target, self._stamp(), source, self._stamp(), fixed)
         return ("lookup", target, source, self._stamp())
 
+    def question_beyond_tf2(self) -> tuple[str, tuple[Any, ...], dict[str, Any]]:
+        """Draw a method that only we have, or an option, with its arguments."""
+        r = self.random
+        names = tuple(
+            r.choice([*self.names, "nobody"] if r.random() < 0.05 else self.names) for _ in range(2)
+        )
+        reach = {"extrapolate_ns": r.choice([0, 1, 50, 512]) * TICK}
+        stamps = [self._stamp() for _ in range(r.choice([1, 3, 40]))]
+        if r.random() < 0.5:
+            stamps.sort()
+        rows = {"errors": r.choice(["raise", "nan"])}
+        others = {
+            name: r.choice(self.names) for name in ("axes_frame", "point_frame") if r.random() < 0.5
+        }
+        return r.choice([
+            ("lookup_transform", (*names, stamps[0]), reach),
+            ("can_transform", (*names, stamps[0]), reach),
+            ("lookup_transforms", (*names, stamps), {**reach, **rows, "matrices": True}),
+            ("lookup_velocity", (*names, r.choice([stamps, stamps[0], None])), {**rows, **others}),
+            ("transform_points", (*names, [(1.0, 2.0, 3.0)] * len(stamps), stamps), rows),
+            ("lookup_newest", names, {}),
+            ("lookup_newest", names, {"max_age_ns": 50 * TICK, "now_ns": stamps[0]}),
+            ("time_range", names, {}),
+        ])  # fmt: skip
+
 
 def tf_bytes(parent: str, child: str, *, x: float = 0.0, stamp_s: int = 1) -> bytes:
     """A TFMessage with one transform, in CDR."""

@@ -100,6 +100,35 @@ def test_cores_agree(make_world: Callable[..., Any], seed: int) -> None:
     assert fast._describe_refusals() == clear._describe_refusals()
 
 
+def answer_of(buffer: Any, question: tuple[str, tuple[Any, ...], dict[str, Any]]) -> Any:
+    """The answer, or the texts of its error; a transform is its stamp and matrix."""
+    method, arguments, options = question
+    try:
+        found = getattr(buffer, method)(*arguments, **options)
+    except errors.TransformException as error:
+        return [type(error), str(error), error.hint]
+    return [found.stamp_ns, found.as_matrix()] if hasattr(found, "as_matrix") else [found]
+
+
+@settings(max_examples=150)
+@given(st.integers(0, 2**32))
+def test_cores_agree_beyond_tf2(make_world: Callable[..., Any], seed: int) -> None:
+    native = pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
+    fast, clear = native.Buffer(), plain.Buffer()
+    world = make_world(seed, wild=True)
+    for operation in world.operations:
+        if operation[0] in {"set", "clear"}:
+            assert perform(fast, operation) == perform(clear, operation)
+            continue
+        question = world.question_beyond_tf2()
+        a, b = answer_of(fast, question), answer_of(clear, question)
+        for one, other in zip(a, b, strict=True):
+            if isinstance(other, np.ndarray):
+                np.testing.assert_allclose(one, other, rtol=1e-6, atol=1e-6, err_msg=str(question))
+            else:
+                assert one == other, question
+
+
 def compare_with_debian(make_world: Callable[..., Any], seeds: range) -> int:
     native = pytest.importorskip("turtlewire._native", reason=COMPILED_CORE)
     if (

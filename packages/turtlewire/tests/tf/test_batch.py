@@ -313,6 +313,12 @@ class TestVelocity:
             expected, abs=1e-5
         )
 
+    def test_an_unknown_point_has_no_velocity(self, disc: turtlewire.Buffer) -> None:
+        seen = disc.lookup_velocity(
+            "world", "disc", [START, START + MS], point_frame="nobody", errors="nan"
+        )
+        assert np.isnan(seen).all()
+
     def test_in_other_axes(self, disc: turtlewire.Buffer) -> None:
         t = START + 500 * MS
         body = disc.lookup_velocity("world", "disc", t, interval_ns=2 * MS, axes_frame="disc")

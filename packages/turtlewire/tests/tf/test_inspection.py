@@ -209,6 +209,20 @@ def test_extrapolation(buffer: turtlewire.Buffer) -> None:
         buffer.lookup_transform("a", "b", 1, extrapolate_ns=SECOND - 2)
     with pytest.raises(ValueError, match="negative"):
         buffer.lookup_transform("a", "b", 1, extrapolate_ns=-1)
+    # What is missing now is a connection, not data.
+    buffer.set_static_transform("c", "d", (0, 0, 0), STILL)
+    with pytest.raises(errors.ConnectivityException):
+        buffer.lookup_transform("b", "d", 4 * SECOND, extrapolate_ns=SECOND)
+
+
+@pytest.mark.parametrize("speed", [1, 20])  # rad/s
+def test_a_turn_is_extrapolated_exactly(buffer: turtlewire.Buffer, speed: float) -> None:
+    for t in (0, 10_000_000):
+        half = speed * t / 2e9
+        buffer.set_transform("a", "b", t, (0, 0, 0), (0, 0, math.sin(half), math.cos(half)))
+    found = buffer.lookup_transform("a", "b", SECOND, extrapolate_ns=SECOND)
+    wanted = (math.cos(speed), math.sin(speed), 0)
+    assert tuple(found.apply((1, 0, 0))) == pytest.approx(wanted, abs=1e-9)
 
 
 @pytest.mark.parametrize("names", [("a\udcff", "b"), ("a", "b\udcff")])
@@ -238,6 +252,26 @@ def test_latest_of_each_link(buffer: turtlewire.Buffer) -> None:
     assert (error.reason, error.child_frame, error.newest_ns) == ("future", "arm", 3 * SECOND)
     with pytest.raises(ValueError, match="now_ns"):
         buffer.lookup_newest("map", "hand", max_age_ns=SECOND)
+    with pytest.raises(ValueError, match="max_age_ns must not be negative"):
+        buffer.lookup_newest("map", "hand", max_age_ns=-1, now_ns=SECOND)
+
+
+def test_links_above_both_frames_do_not_count(buffer: turtlewire.Buffer) -> None:
+    for t in (2, 3):
+        buffer.set_transform("map", "base", t * SECOND, (t, 0, 0), STILL)
+    for t in (1, 8):
+        buffer.set_transform("base", "arm", t * SECOND, (0, 1, 0), STILL)
+    for names in (("arm", "base"), ("base", "arm")):
+        assert buffer.lookup_newest(*names).stamp_ns == 8 * SECOND
+        assert buffer.time_range(*names) == (SECOND, 8 * SECOND)
+
+
+def test_the_newest_of_a_cleared_link_is_no_data(buffer: turtlewire.Buffer) -> None:
+    buffer.set_transform("map", "base", SECOND, (0, 0, 0), STILL)
+    buffer.clear()
+    with pytest.raises(errors.TransformException) as caught:
+        buffer.lookup_newest("map", "base", max_age_ns=1, now_ns=SECOND)
+    assert caught.value.reason == "no data"
 
 
 def test_time_range(buffer: turtlewire.Buffer) -> None:

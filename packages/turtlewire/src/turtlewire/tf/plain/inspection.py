@@ -37,6 +37,8 @@ def lookup_newest(
     max_age, now = moments(max_age_ns=max_age_ns, now_ns=now_ns)
     if max_age is not None and now is None:
         raise ValueError("max_age_ns needs now_ns, the present by the clock of the stamps")
+    if max_age is not None and max_age < 0:
+        raise ValueError("max_age_ns must not be negative")
     with self._lock:
         pose, used = self._checked(
             lambda: self._tree.lookup_by(
@@ -55,7 +57,7 @@ def time_range(self: SharedTree, target_frame: str, source_frame: str) -> tuple[
         newest, used = self._checked(lambda: _links_between(self._tree, target_frame, source_frame))
         links = [self._tree.links[child] for child in used]
     oldest = [link.oldest for link in links if not link.static]
-    return None if newest is None else (max(oldest), newest)
+    return None if newest is None or not oldest else (max(oldest), newest)
 
 
 def _links_between(tree: Tree, target: str, source: str) -> tuple[int | None, list[str]]:

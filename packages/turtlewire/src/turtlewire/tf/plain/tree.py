@@ -168,13 +168,18 @@ class Tree:
         if latest:
             stamp = self.latest_common_time(target, source)
         try:
-            pose, _ = self._walk(
-                target, source, stamp, lambda link: link.read_beyond(stamp, beyond)
-            )
-            return stamp, self.rules.stored(pose)
+            return stamp, self.rules.stored(self._pose(target, source, stamp, beyond))
         except Failure as failure:
             failure.hopeless = failure.hopeless and not latest  # new data moves the latest time on
             raise
+
+    def _pose(self, target: str, source: str, stamp: int | None, beyond: int) -> Pose:
+        try:
+            return self._walk(target, source, stamp, lambda link: link.read(stamp))[0]
+        except Failure:
+            if not beyond:
+                raise
+        return self._walk(target, source, stamp, lambda link: link.read_beyond(stamp, beyond))[0]
 
     def lookup_by(
         self, target: str, source: str, stamp: int | None, read: Reader
