@@ -136,19 +136,13 @@ class MeshLibrary:
         if not url_path.startswith(_PREFIX):
             return None
         found = self.find(url_path)
-        if isinstance(found, str):
-            _logger.warning("The page did not get %s: %s", printable(url_path), printable(found))
-            return None
-        if found.path.lower().endswith(_TIFF):
+        if isinstance(found, MeshFile):
             try:
-                return WebContent(_png_of_tiff(found.path), found.media_type)
+                return WebContent(_content(found.path), found.media_type)
             except ValueError as error:
-                _logger.warning(
-                    "The page did not get %s: %s", printable(url_path), printable(str(error))
-                )
-                return None
-        with open(found.path, "rb") as file:
-            return WebContent(file.read(), found.media_type)
+                found = str(error)
+        _logger.warning("The page did not get %s: %s", printable(url_path), printable(found))
+        return None
 
     def find(self, url_path: str) -> MeshFile | str:
         """Return the file of ``/mesh/<package>/<path>``, or the line with the reason.
@@ -168,6 +162,21 @@ class MeshLibrary:
         file = _file_in(self._permitted[package], path)
         missing = _missing(package, path, file)
         return missing or MeshFile(file, media_type)
+
+
+def _content(path: str) -> bytes:
+    """Return the content of a file as the page needs it.
+
+    Raises:
+        ValueError: The file cannot be read, or it needs Pillow, which is not installed.
+    """
+    if path.lower().endswith(_TIFF):
+        return _png_of_tiff(path)
+    try:
+        with open(path, "rb") as file:
+            return file.read()
+    except OSError as error:
+        raise ValueError(f"the file cannot be read: {error.strerror}") from error
 
 
 def _png_of_tiff(path: str) -> bytes:
@@ -236,6 +245,12 @@ def _missing(package: str, path: str, file: str) -> str:
         )
     if not os.path.isfile(file):
         return f"the package '{package}' has no file '{path}'"
-    if os.path.getsize(file) > _LARGEST_FILE:
+    try:
+        with open(file, "rb") as opened:
+            opened.read(1)  # a file that can be opened may still give an I/O error
+            size = opened.seek(0, os.SEEK_END)
+    except OSError as error:
+        return f"the file '{path}' of the package '{package}' cannot be read: {error.strerror}"
+    if size > _LARGEST_FILE:
         return f"'{path}' is larger than {_LARGEST_FILE // 2**20} MiB"
     return ""

@@ -1,6 +1,7 @@
 """Robots: their models, meshes and joints; and messages of tools."""
 
 import math
+import os
 
 import pytest
 from hypothesis import given
@@ -208,6 +209,34 @@ def test_urls_that_are_refused(prefix, path, why):
     answer = library.find(path)
     assert isinstance(answer, str)
     assert why in answer
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/mem"), reason="Linux only")
+def test_a_mesh_that_cannot_be_read_is_answered_as_a_missing_one(prefix, caplog):
+    os.symlink("/proc/self/mem", prefix / "share/arm/meshes/faulty.stl")
+    why = "the file 'meshes/faulty.stl' of the package 'arm' cannot be read: Input/output error"
+    content, status = described(URDF.format(mesh="package://arm/meshes/faulty.stl"))
+    assert (status.level, status.text.count(why)) == ("warn", 1)
+    library = MeshLibrary()
+    library.permit([("arm", str(prefix / "share/arm"))])
+    assert library.answer("/mesh/arm/meshes/faulty.stl") is None
+    assert f"The page did not get /mesh/arm/meshes/faulty.stl: {why}" in caplog.text
+
+
+@pytest.mark.usefixtures("prefix")
+def test_a_mesh_that_becomes_unreadable_is_answered_as_a_missing_one(meshes, monkeypatch, caplog):
+    library, file = MeshLibrary(), meshes / "tip one.stl"
+    library.permit([("arm", str(meshes.parent))])
+    find = library.find
+
+    def find_and_delete(url_path):
+        found = find(url_path)
+        file.unlink()
+        return found
+
+    monkeypatch.setattr(library, "find", find_and_delete)
+    assert library.answer("/mesh/arm/meshes/tip one.stl") is None
+    assert caplog.text.endswith("the file cannot be read: No such file or directory\n")
 
 
 @given(st.text(st.sampled_from("ab./\\%2e:\0 ~"), max_size=20))
