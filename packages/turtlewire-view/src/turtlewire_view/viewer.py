@@ -9,7 +9,6 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.errors import TurtlewireError
 from turtlewire.web import Server
 from turtlewire.web.commands import CommandError
 from turtlewire.web.desktop import wanted_port
@@ -208,21 +207,21 @@ class Viewer:
         feed = DisplayFeed(name, display, types, lambda _: self._work.set(), self._changed.set)
         feed.on_packages = self._meshes.permit
         feed.ask = self.source.ask_parameter
-        self._connect_feed(feed)
-        feed.follow_parameter()
-        feed.call_service(self.source.ask_service)
+        try:
+            self._connect_feed(feed)
+        except BaseException:  # such as the WireError of the second topic's invalid name
+            feed.close()
+            raise
         return feed
 
     def _connect_feed(self, feed: DisplayFeed) -> None:
-        """Subscribe to the topics of a display, and prepare the topic that it publishes on."""
-        try:
-            if feed.display.sends is not None:
-                self.source.advertise(*feed.display.sends)
-            for topic, type_name in feed.types.items():
-                feed.ends.append(self.source.subscribe(topic, type_name, _sink(feed, topic)))
-        except TurtlewireError:  # such as an invalid name of the second topic
-            feed.close()
-            raise
+        """Connect a display with its topics, the parameter and the service that it needs."""
+        if feed.display.sends is not None:
+            self.source.advertise(*feed.display.sends)
+        for topic, type_name in feed.types.items():
+            feed.ends.append(self.source.subscribe(topic, type_name, _sink(feed, topic)))
+        feed.follow_parameter()
+        feed.call_service(self.source.ask_service)
 
     def work(self) -> None:
         """Wake the thread that updates the displays; it finds the pages that need new poses."""

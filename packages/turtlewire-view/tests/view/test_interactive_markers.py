@@ -5,6 +5,7 @@ import math
 import pytest
 
 from turtlewire import msg
+from turtlewire.errors import WireError
 from turtlewire.tf.buffer import Buffer
 from turtlewire.web.commands import CommandError
 from turtlewire_view import BufferSource, LiveSource, Viewer
@@ -84,6 +85,18 @@ def test_the_response_and_later_updates(display):
     assert display.asks_again is False
     assert display.marker("a") is None
     assert display.marker("b").header["pose"][0] == 2
+
+
+def test_a_display_that_cannot_call_its_service_leaves_no_subscription(monkeypatch):
+    def ask_service(*_args):
+        raise WireError("the context has been closed")
+
+    source = StillSource()
+    source.offer(UPDATE, update(1))
+    monkeypatch.setattr(source, "ask_service", ask_service)
+    with Viewer(source, port=0) as viewer, pytest.raises(WireError):
+        viewer.new_feed("d", "interactive_markers", UPDATE, {})
+    assert source._sinks == {UPDATE: []}
 
 
 def test_an_update_that_came_before_the_response_is_not_lost(display):

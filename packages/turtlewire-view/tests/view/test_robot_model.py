@@ -215,7 +215,7 @@ def test_urls_that_are_refused(prefix, path, why):
 def test_a_mesh_that_cannot_be_read_is_answered_as_a_missing_one(prefix, caplog):
     os.symlink("/proc/self/mem", prefix / "share/arm/meshes/faulty.stl")
     why = "the file 'meshes/faulty.stl' of the package 'arm' cannot be read: Input/output error"
-    content, status = described(URDF.format(mesh="package://arm/meshes/faulty.stl"))
+    _, status = described(URDF.format(mesh="package://arm/meshes/faulty.stl"))
     assert (status.level, status.text.count(why)) == ("warn", 1)
     library = MeshLibrary()
     library.permit([("arm", str(prefix / "share/arm"))])
