@@ -70,34 +70,35 @@ class BufferServer:
 
     def __init__(self, buffer: Buffer, node: Node, ns: str) -> None:
         self._buffer = buffer
-        self._waiting: dict[bytes, Future] = {}
+        self._waiting: set[Future] = set()
         self._server = ActionServer(
             node,
             LookupTransform,
             ns,
             self._execute,
-            cancel_callback=self._cancel,
+            cancel_callback=lambda _goal_handle: CancelResponse.ACCEPT,
             # Goals that wait must not hold up each other.
             callback_group=ReentrantCallbackGroup(),
         )
 
     def destroy(self) -> None:
         """Stop the action; waiting goals are aborted."""
-        for future in list(self._waiting.values()):
+        for future in list(self._waiting):
             future.cancel()
         self._server.destroy()
 
     async def _execute(self, goal_handle: ServerGoalHandle) -> Any:
         result = LookupTransform.Result()
         future = self._ask(goal_handle.request)
-        key = bytes(goal_handle.goal_id.uuid)
-        self._waiting[key] = future
+        self._waiting.add(future)
+        # A client may cancel before the execution, also from another thread.
+        goal_handle._goal.cancel_requested.add_done_callback(lambda _: future.cancel())
         try:
             result.transform = await future or result.transform  # None after a cancellation
         except TransformException as error:
             result.error = TF2Error(error=error_number(error), error_string=str(error))
         finally:
-            del self._waiting[key]
+            self._waiting.remove(future)
         if future.cancelled():
             result.error = TF2Error(
                 error=TF2Error.TIMEOUT_ERROR, error_string="The lookup was cancelled."
@@ -122,13 +123,6 @@ class BufferServer:
         return self._buffer.wait_for_transform_async(
             goal.target_frame, goal.source_frame, goal.source_time, timeout=goal.timeout
         )
-
-    def _cancel(self, goal_handle: ServerGoalHandle) -> CancelResponse:
-        future = self._waiting.get(bytes(goal_handle.goal_id.uuid))
-        if future is None:
-            return CancelResponse.REJECT
-        future.cancel()
-        return CancelResponse.ACCEPT
 
 
 def main(args: list[str] | None = None) -> int:

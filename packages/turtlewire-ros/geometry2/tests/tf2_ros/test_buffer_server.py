@@ -168,6 +168,26 @@ def test_a_goal_that_waits_can_be_cancelled(spin_until, buffer, make_node):
     assert buffer._futures._waiting == []
 
 
+def test_a_goal_can_be_cancelled_before_it_is_executed(spin_until, make_node):
+    node, accepted = make_node("both"), []
+    server = BufferServer(Buffer(), node, "lookup")
+    server._server.register_handle_accepted_callback(accepted.append)
+    action = ActionClient(node, LookupTransform, "lookup")
+    assert action.wait_for_server(60)
+    goal = LookupTransform.Goal(target_frame="world", source_frame="robot", timeout=LONG.to_msg())
+    sent = action.send_goal_async(goal)
+    spin_until(node, sent.done)
+    cancelled = sent.result().cancel_goal_async()
+    spin_until(node, cancelled.done)
+    assert len(cancelled.result().goals_canceling) == 1
+    accepted[0].execute()
+    result = sent.result().get_result_async()
+    spin_until(node, result.done)
+    assert result.result().status == 5  # canceled
+    assert result.result().result.error.error_string == "The lookup was cancelled."
+    server.destroy()
+
+
 @pytest.fixture
 def strange_server(make_node, spun):
     """A server that behaves otherwise."""

@@ -66,6 +66,7 @@ class Goal:
         request: The goal, as the client sent it.
         key: The bytes of its id.
         status: A number of ``action_msgs/msg/GoalStatus``; only :class:`Goals` changes it.
+        cancel_requested: Done when a client wants the goal cancelled and the server agreed.
         result: Of the response with its result.
     """
 
@@ -74,6 +75,7 @@ class Goal:
         self.request = request
         self.key = goal_key(info.goal_id)
         self.status = _ACCEPTED
+        self.cancel_requested: Future[None] = Future()
         self.result: Future[Any] = Future()
 
     @property
@@ -176,6 +178,8 @@ class Goals:
             if not goal.is_active and goal.key in self._goals:
                 heappush(self._finished, (self._now_ns(), goal.key))
             self._publish(self._statuses.cdr())
+        if event is GoalEvent.CANCEL_GOAL:
+            goal.cancel_requested.set_result(None)
 
     def first_end_ns(self) -> int | None:
         """Return the time at which the first finished goal ended; None without one."""

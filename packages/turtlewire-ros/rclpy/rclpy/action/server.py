@@ -428,14 +428,17 @@ class ActionServer(IntrospectedAction, Waitable):
         wanted, response.return_code = self._goals.to_cancel(request.goal_info, response)
         for goal, goal_handle in wanted:
             decision = await await_or_execute(self._cancel_callback, goal_handle)
-            # The goal may have ended while the callback decided.
-            if decision is not CancelResponse.ACCEPT or not goal.is_active:
-                continue
-            # A second request gets the same answer without another transition.
-            if not goal_handle.is_cancel_requested:
-                self._goals.advance(goal, GoalEvent.CANCEL_GOAL)
-            response.goals_canceling.append(goal.info)
+            if decision is CancelResponse.ACCEPT and self._begin_cancelling(goal):
+                response.goals_canceling.append(goal.info)
         self._cancel_service._send_unless_destroyed(response, header)
+
+    def _begin_cancelling(self, goal: Goal) -> bool:
+        """Return False if the goal ended while the cancel callback decided."""
+        try:
+            self._goals.advance(goal, GoalEvent.CANCEL_GOAL)
+        except RCLError:  # it has ended, or an earlier request has begun to cancel it
+            return goal.is_active
+        return True
 
     # Publishing
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from rclpy._rclpy_pybind11 import RCLError
 from turtlewire.distro import LYRICAL, since
 
 from ._goals import Goal, GoalEvent
@@ -71,8 +72,11 @@ class ServerGoalHandle:
         """Execute the goal with ``execute_callback``, or with the server's callback."""
         # As in ROS 2, a goal that was cancelled before its execution is still executed, so
         # that the callback can end it, but it cannot go back to EXECUTING.
-        if not self.is_cancel_requested:
+        try:
             self._goals.advance(self._goal, GoalEvent.EXECUTE)
+        except RCLError:
+            if not self.is_cancel_requested:
+                raise
         self._action_server.notify_execute(self, execute_callback)
 
     def publish_feedback(self, feedback: Any) -> None:
