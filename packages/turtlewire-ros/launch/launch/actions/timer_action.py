@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import weakref
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
@@ -117,21 +118,28 @@ class TimerAction(Action):
             is_ours = isinstance(each, TimerEvent) and each.timer_action is self
             return each is event or (is_ours and each not in self._own_events)
 
-        due = EventHandler(matcher=is_due, entities=self._later(context), handle_once=True)
-        end = OnShutdown(on_shutdown=self._on_shutdown)
-        for handler in (due, end):
-            context.register_event_handler(handler)
-
         def expire() -> None:
             if not completed.done():
                 # Before the future is done, so that the launch does not end between the two.
                 context.emit_event_sync(event)
                 completed.set_result(None)
 
-        self._completed = completed
+        # Before the rest, because it raises if the period is not a number.
         self._timers[completed] = self._start_time(context, context.asyncio_loop, expire)
-        completed.add_done_callback(lambda _: context.unregister_event_handler(end))
-        completed.add_done_callback(self._timers.pop)
+        self._completed = completed
+        due = EventHandler(matcher=is_due, entities=self._later(context), handle_once=True)
+        end = OnShutdown(on_shutdown=self._on_shutdown)
+        for handler in (due, end):
+            context.register_event_handler(handler)
+
+        def forget(_: object) -> None:
+            del self._timers[completed]
+            context.unregister_event_handler(end)
+            if self._canceled:
+                with contextlib.suppress(ValueError):  # an event of a program came before
+                    context.unregister_event_handler(due)
+
+        completed.add_done_callback(forget)
 
     def _later(
         self, context: LaunchContext
@@ -145,6 +153,8 @@ class TimerAction(Action):
         scope = _beginning_of_scope(context) if context.configuration_scopes.depth else []
 
         def actions(_event: Event, later: LaunchContext) -> list[LaunchDescriptionEntity]:
+            if self._canceled:  # after its event was emitted
+                return []
             entities = self.handle(later)
             later.extend_locals(values)
             end = [PopEnvironment(), PopLaunchConfigurations()] if scope else []

@@ -350,6 +350,21 @@ def test_a_timer_can_be_cancelled_twice_and_after_its_time(launch):
     over.cancel()
 
 
+def test_a_timer_can_be_cancelled_just_before_its_actions(launch):
+    late = TimerAction(period=0.0, actions=[LogInfo(msg="never")])
+    first = TimerAction(period=0.0, actions=[OpaqueFunction(function=lambda _: late.cancel())])
+    assert launch(first, late).messages == []
+
+
+@pytest.mark.parametrize(("period", "status"), [("abc", 1), (100.0, 0)])
+def test_a_timer_that_never_expires_leaves_no_handler(launch, period, status):
+    timer = TimerAction(period=period, actions=[LogInfo(msg="never")])
+    outcome = launch(timer, OpaqueFunction(function=lambda _: timer.cancel()))
+    assert (outcome.status, outcome.messages) == (status, [])
+    assert not outcome.context.would_handle_event(TimerEvent(timer_action=timer))
+    assert timer.get_asyncio_future() is None or timer.get_asyncio_future().done()
+
+
 def test_shutdown_tells_why(launch):
     why = OnShutdown(on_shutdown=[LogInfo(msg=["why: ", LocalSubstitution("event.reason")])])
     assert launch(RegisterEventHandler(why), Shutdown(reason="enough")).messages == ["why: enough"]
