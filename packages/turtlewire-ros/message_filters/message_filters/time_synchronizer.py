@@ -36,10 +36,15 @@ class TimeSynchronizer(SimpleFilter):
         super().__init__()
         self.queue_size = queue_size
         self.lock = threading.Lock()
+        self._inputs: list[SimpleFilter] = []
+        self.input_connections: list[int] = []
         self.connectInput(fs)
 
     def connectInput(self, fs: Sequence[SimpleFilter]) -> None:  # noqa: N802 -- ROS 2's name
-        """Listen to other filters, and drop the waiting messages."""
+        """Listen to filters, instead of those before, and drop the waiting messages."""
+        for former, number in zip(self._inputs, self.input_connections, strict=True):
+            former.unregisterCallback(number)
+        self._inputs = list(fs)
         self.queues: list[dict[int, Any]] = [{} for _ in fs]
         self.input_connections = [
             f.registerCallback(self.add, queue, index)

@@ -105,6 +105,18 @@ def test_exact_sets_pass_in_the_order_of_time(collected):
     assert synchronizer.queues == [{}, {}, {}]
 
 
+def test_a_synchronizer_leaves_its_former_filters(collected):
+    first, second, third = filters = [SimpleFilter() for _ in range(3)]
+    synchronizer = TimeSynchronizer([first, second], 2)
+    synchronizer.registerCallback(collected)
+    first.signalMessage(at(1))
+    synchronizer.connectInput([second, third])
+    assert [len(each.callbacks) for each in filters] == [0, 1, 1]
+    for each in filters[::-1]:
+        each.signalMessage(at(1))
+    assert collected.stamps() == [(1, 1)]
+
+
 def test_exact_means_exact_and_the_queue_has_an_end(collected):
     left, right = SimpleFilter(), SimpleFilter()
     synchronizer = TimeSynchronizer([left, right], 2)
