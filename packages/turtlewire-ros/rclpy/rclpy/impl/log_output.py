@@ -135,6 +135,19 @@ class _Console:
         _write_line(self._fd, line)
 
 
+class _OpenFile:
+    """A file descriptor, which is closed when no thread writes to it any more.
+
+    Another thread may use the number of a descriptor that is closed for its own file.
+    """
+
+    def __init__(self, fd: int) -> None:
+        self.fd = fd
+
+    def __del__(self) -> None:
+        os.close(self.fd)
+
+
 class _File:
     """The log file.
 
@@ -143,13 +156,16 @@ class _File:
 
     def __init__(self, prefix: str | None) -> None:
         self._prefix = prefix
-        self._fd: int | None = None
+        self._begin_ms = time.time_ns() // 1_000_000
+        self._opened: _OpenFile | None = None
+        self._may_open = True
         self._failed = False
 
     def write(self, line: str) -> None:
-        if self._fd is None and not self._failed:
+        if self._opened is None and self._may_open:
             self._open()
-        if self._fd is not None and not _write_line(self._fd, line) and not self._failed:
+        opened = self._opened  # another thread may close the log file
+        if opened is not None and not _write_line(opened.fd, line) and not self._failed:
             # Reported once, because on a full disk every line fails.
             self._failed = True
             _write_line(_STDERR_FD, "Lines are missing in the log file: the disk may be full.")
@@ -158,12 +174,12 @@ class _File:
         name = self._prefix or os.path.basename(sys.argv[0] if sys.argv else "") or "python3"
         try:
             os.makedirs(directory(), exist_ok=True)
-            path = f"{directory()}/{name}_{os.getpid()}_{time.time_ns() // 1_000_000}.log"
-            self._fd = os.open(
-                path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644
-            )
+            # Two threads that log the first record at once open the same file.
+            path = f"{directory()}/{name}_{os.getpid()}_{self._begin_ms}.log"
+            flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0)
+            self._opened = _OpenFile(os.open(path, flags, 0o644))
         except OSError as error:
-            self._failed = True
+            self._may_open = False
             _write_line(
                 _STDERR_FD,
                 f"No log file is written: {error}. Set ROS_LOG_DIR to a directory that can be "
@@ -171,9 +187,8 @@ class _File:
             )
 
     def close(self) -> None:
-        fd, self._fd = self._fd, None
-        if fd is not None:
-            os.close(fd)
+        self._may_open = False
+        self._opened = None
 
 
 _console: _Console | None = None
@@ -196,8 +211,9 @@ def emit(record: LogRecord, shown: Shown = WHOLE) -> None:
     if _console.enabled and shown.line:
         text = f"{line}\n    {shown.help}" if shown.help else line
         _console.write(text, record.severity)
-    if _file is not None:
-        _file.write(line)
+    file = _file  # another thread may call `shutdown`
+    if file is not None:
+        file.write(line)
     if _rosout_enabled and _rosout_sinks:
         sink = _sink_of(record.name)
         if sink is not None:

@@ -360,6 +360,27 @@ def test_the_log_file(logger, tmp_path, monkeypatch, capfd):
     assert len(path.read_text().splitlines()) == 2
 
 
+def test_a_line_during_the_shutdown_reaches_no_other_file(logger, tmp_path, monkeypatch, capfd):
+    """Another thread closes the log file, and opens a file, which may get the same descriptor."""
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
+    others, write_line = [], log_output._write_line
+
+    def write_after_shutdown(fd, line):
+        if fd > 2 and not others:
+            log_output.shutdown()
+            others.append((tmp_path / "other").open("wb"))
+        return write_line(fd, line)
+
+    monkeypatch.setattr(log_output, "_write_line", write_after_shutdown)
+    log_output.configure(file_prefix="robot")
+    file = log_output._file
+    logger.info("a")
+    file.write("b")
+    others[0].close()
+    written = {path.name.partition("_")[0]: path.read_text() for path in tmp_path.iterdir()}
+    assert written == {"other": "", "robot": capfd.readouterr().err}
+
+
 def test_log_folder(monkeypatch, tmp_path):
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setenv("ROS_LOG_DIR", "/x")
