@@ -222,6 +222,8 @@ class Executor:
             ExternalShutdownException: The context was shut down.
             Exception: A callback raised it.
         """
+        if not self._rclpy_scheduler.serves_endlessly:  # `spin` has done it once
+            rearm()
         self._spin_once(timeout_sec)
 
     def spin_until_future_complete(
@@ -254,6 +256,7 @@ class Executor:
         self, future: Future[Any], timeout_sec: float | None = None
     ) -> None:
         """Wait for one callback and run it, unless ``future`` is done before."""
+        rearm()
         with self._waking_when_done(future):
             self._spin_once(timeout_sec, future.done)
 
