@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
@@ -89,6 +90,7 @@ class QueueWaitSet(EventWatcher, WaitSet):
         self._attached: dict[Queued, Entity] = {}
         self._woken = False
         self._closed = False
+        self._process = os.getpid()
 
     def attach(self, entity: Waitable) -> None:
         if isinstance(entity, StatusEvent):
@@ -135,6 +137,8 @@ class QueueWaitSet(EventWatcher, WaitSet):
             self._condition.notify_all()
 
     def close(self) -> None:
+        if self._process != os.getpid():  # see `Entity.close`
+            return
         self._on_closing(self)
         self.leave_events()
         with self._lock:

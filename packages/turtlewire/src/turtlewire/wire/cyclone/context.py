@@ -100,8 +100,10 @@ class CycloneContext(Context):
             )
 
     def close(self) -> None:
+        if self._process != os.getpid():  # see `Entity.close`
+            return
         with self._lock:
-            if self._core.closing or self._process != os.getpid():
+            if self._core.closing:
                 return
             self._core.closing = True
             nodes = list(self._nodes)

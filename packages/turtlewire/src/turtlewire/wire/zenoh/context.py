@@ -207,7 +207,8 @@ class ZenohContext(Context):
         return call_when_queued(self._core.lock, entity, call)
 
     def call_soon(self, call: Callable[[], None]) -> None:
-        self._core.reader.submit(call)
+        if self._core.process == os.getpid():  # a forked child has no reader thread
+            self._core.reader.submit(call)
 
     @classmethod
     def _require_threads(cls) -> None:
@@ -230,8 +231,10 @@ class ZenohContext(Context):
             raise error.with_hint(_FORK_FIRST)
 
     def close(self) -> None:
+        if self._core.process != os.getpid():  # see `Entity.close`
+            return
         with self._core.lock:
-            if self._core.closing or self._core.process != os.getpid():
+            if self._core.closing:
                 return
             self._core.closing = True
             nodes = list(self._nodes)

@@ -159,6 +159,8 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
         return len(self.partners)
 
     def close(self) -> None:
+        if self.is_inherited:
+            return
         super().close()
         self.leave_watchers()
         with self._lock:
@@ -284,6 +286,8 @@ class ZenohSinkSubscription(ZenohSubscription):
         return messages
 
     def close(self) -> None:
+        if self.is_inherited:
+            return
         super().close()
         with self._receiving:  # the sink gets nothing more when this returns
             return

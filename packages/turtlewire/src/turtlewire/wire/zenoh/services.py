@@ -59,6 +59,8 @@ class _QueuedEndpoint(ZenohEndpoint, Queued):
         )
 
     def close(self) -> None:
+        if self.is_inherited:
+            return
         super().close()
         self.leave_watchers()
         with self._lock:
@@ -182,6 +184,8 @@ class ZenohService(_QueuedEndpoint, Service):
             self._core.reader.submit(lambda: self._forget(unanswered))
 
     def close(self) -> None:
+        if self.is_inherited:
+            return
         super().close()
         self._forget(list(self._queries))
 
