@@ -174,7 +174,8 @@ class ExecuteLocal(ProcessAction):
 
         Raises:
             RuntimeError: The action was executed before.
-            SubstitutionFailure: A substitution of its command line has no value.
+            SubstitutionFailure: A substitution has no value.
+            ValueError: A timeout is not a number.
         """
         if self._completed is not None:
             raise RuntimeError(
@@ -186,6 +187,7 @@ class ExecuteLocal(ProcessAction):
             return None
         try:
             self.prepare(context)
+            respawn = self._perform_settings(context)
         except BaseException:
             self.clean_up()
             raise
@@ -199,7 +201,7 @@ class ExecuteLocal(ProcessAction):
         self._end_was_handled = asyncio.Event()
         # Before the start, because the first event must find them.
         self._register_handlers(context)
-        context.add_completion_future(context.asyncio_loop.create_task(self._run(context)))
+        context.add_completion_future(context.asyncio_loop.create_task(self._run(context, respawn)))
         return None
 
     def prepare(self, context: LaunchContext) -> None:
@@ -222,9 +224,8 @@ class ExecuteLocal(ProcessAction):
         assert self._process_description.final_name is not None
         return self._process_description.final_name
 
-    async def _run(self, context: LaunchContext) -> None:
+    async def _run(self, context: LaunchContext, respawn: bool) -> None:
         try:
-            respawn = self._performed_respawn(context)
             runs = 0
             while await self._run_once(context) and respawn and await self._respawns(runs):
                 runs += 1
@@ -268,7 +269,7 @@ class ExecuteLocal(ProcessAction):
                 " ".join(description.final_cmd),
                 description.final_cwd,
             )
-        emulate_tty = self._performed_emulate_tty(context)
+        emulate_tty = self._emulates_tty
         return await ChildProcess.start(
             self.command(),
             cwd=description.final_cwd,
@@ -353,6 +354,7 @@ class ExecuteLocal(ProcessAction):
     def _show_end(self, event: ProcessExited, _context: LaunchContext) -> None:
         """Show the last line, even if it is not complete, and how the process ended."""
         assert self._end_was_handled is not None
+        self._end_was_handled.set()
         self._output.show_rest()
         if event.returncode == 0:
             self._logger.info("process has finished cleanly [pid %s]", event.pid)
@@ -363,7 +365,6 @@ class ExecuteLocal(ProcessAction):
                 event.returncode,
                 " ".join(event.cmd),
             )
-        self._end_was_handled.set()
 
     # the end
 
@@ -385,11 +386,7 @@ class ExecuteLocal(ProcessAction):
             return
         if send_sigint:
             self._send_signal(signal.SIGINT)
-        timeouts = (
-            perform_substitutions(context, timeout)
-            for timeout in (self._sigterm_timeout, self._sigkill_timeout)
-        )
-        end = escalate(self._process, self._name, timeouts, self._send_signal, self._logger)
+        end = escalate(self._process, self._name, self._timeouts, self._send_signal, self._logger)
         context.add_completion_future(context.asyncio_loop.create_task(end))
 
     def _send_signal(self, number: signal.Signals) -> None:
@@ -399,19 +396,26 @@ class ExecuteLocal(ProcessAction):
         self._logger.info("sending signal '%s' to process[%s]", number.name, self._name)
         process.send_signal(number)
 
-    # settings that are substitutions
+    def _perform_settings(self, context: LaunchContext) -> bool:
+        """Perform the substitutions of the settings, in the scope of the visit.
 
-    def _performed_respawn(self, context: LaunchContext) -> bool:
+        Returns:
+            Whether the process is started again after its end.
+        """
+        self._timeouts = [
+            perform_substitutions(context, timeout)
+            for timeout in (self._sigterm_timeout, self._sigkill_timeout)
+        ]
+        for timeout in self._timeouts:
+            float(timeout)  # an error during the shutdown would come too late
+        fallback = str(self._emulate_tty)
+        self._emulates_tty = evaluate_condition_expression(
+            context, [LaunchConfiguration("emulate_tty", default=fallback)]
+        )
         if isinstance(self._respawn, bool):
             return self._respawn
         return evaluate_condition_expression(
             context, normalize_to_list_of_substitutions(self._respawn)
-        )
-
-    def _performed_emulate_tty(self, context: LaunchContext) -> bool:
-        fallback = str(self._emulate_tty)
-        return evaluate_condition_expression(
-            context, [LaunchConfiguration("emulate_tty", default=fallback)]
         )
 
 

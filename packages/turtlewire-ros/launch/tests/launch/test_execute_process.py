@@ -12,6 +12,7 @@ import pytest
 from launch.actions import (
     EmitEvent,
     ExecuteProcess,
+    GroupAction,
     LogInfo,
     OpaqueFunction,
     RegisterEventHandler,
@@ -241,6 +242,31 @@ def test_a_process_may_find_a_terminal(launch):
     assert (
         "] [False, True, True]" in launch(python(code, emulate_tty=True)).text
     )  # the test has no keyboard
+
+
+def test_settings_of_a_group_count_for_its_processes(launch):
+    code = "import sys; print('terminal' if sys.stdout.isatty() else 'pipe')"
+    again = LaunchConfiguration("again", default="false")
+    settings = (
+        SetLaunchConfiguration("again", "true"),
+        SetLaunchConfiguration("emulate_tty", "true"),
+    )
+    options = {"respawn": again, "respawn_max_retries": 1}
+    inside, outside = python(code, **options), python(code, **options)
+    text = launch(GroupAction([*settings, inside]), outside).text
+    assert (text.count("] terminal"), text.count("] pipe")) == (2, 1)
+
+
+@pytest.mark.parametrize("timeout", ["soon", LaunchConfiguration("missing")])
+def test_a_process_without_valid_timeouts_does_not_start(launch, timeout):
+    process = python(IGNORES_SIGINT, sigkill_timeout=timeout)
+    assert launch(when_ready(process, Shutdown()), process).status == 1
+    assert process.process_details is None
+
+
+def test_an_invalid_format_of_the_last_line_ends_the_launch(launch):
+    outcome = launch(python("print('x', end='')", output_format="{nothing}"))
+    assert (outcome.status, outcome.error) == (1, "'nothing'")
 
 
 def test_shutdown_escalates(launch):
