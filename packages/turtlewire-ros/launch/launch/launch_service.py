@@ -60,6 +60,7 @@ class LaunchService:
         self._context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
         self._running = threading.Lock()
         self._interrupted = False
+        self._was_shut_down = False
         self._unseen_interrupts = 0
         self._return_code = 0
         self._task: asyncio.Task[int] | None = None
@@ -123,12 +124,15 @@ class LaunchService:
             self._run.begin()
             self._task = asyncio.current_task()
             self._return_code = self._unseen_interrupts = 0
-            self._interrupted = False
+            self._interrupted = self._was_shut_down = False
             with self._signals_handled():
                 logging.log_launch_config(logger=self._logger)
-                await self._serve(shutdown_when_idle)
-                # Stop everything that the launched processes have left behind.
-                await self._run.stop_processes()
+                try:
+                    await self._serve(shutdown_when_idle)
+                finally:
+                    # Stop everything that the launched processes have left behind; after a
+                    # cancellation of this task also the processes themselves.
+                    await self._run.stop_processes()
             return self._return_code
         finally:
             self._run.end()
@@ -194,7 +198,8 @@ class LaunchService:
         )
 
     def _shut_down(self, reason: str, *, due_to_sigint: bool) -> None:
-        if not self._run.is_shutdown:
+        if not (self._was_shut_down or self._run.is_shutdown):
+            self._was_shut_down = True
             self.emit_event(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
 
     def _on_shutdown(self, _event: Event, _context: LaunchContext) -> None:

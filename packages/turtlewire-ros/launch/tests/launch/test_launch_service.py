@@ -1,5 +1,6 @@
 """The order of events and handlers, failures, and the end, also by Ctrl-C and other signals."""
 
+import asyncio
 import os
 import signal
 import threading
@@ -13,6 +14,7 @@ from launch.actions import (
     EmitEvent,
     ExecuteProcess,
     LogInfo,
+    OpaqueCoroutine,
     OpaqueFunction,
     RegisterEventHandler,
     Shutdown,
@@ -156,6 +158,33 @@ def test_another_thread_can_end_it(launch):
     threads[0].join()
     assert outcome.status == 0
     assert process.return_code == -2
+
+
+def test_two_errors_at_once_are_one_shutdown(launch):
+    async def fail():
+        raise ValueError("boom")
+
+    actions = [OpaqueCoroutine(coroutine=fail, ignore_context=True) for _ in range(2)]
+    shutdown = OnShutdown(on_shutdown=[LogInfo(msg="ends")])
+    outcome = launch(RegisterEventHandler(shutdown), *actions)
+    assert (outcome.status, outcome.messages) == (1, ["ends"])
+
+
+def test_a_cancelled_launch_stops_its_processes():
+    started, service = asyncio.Event(), LaunchService(noninteractive=True)
+    process = ExecuteProcess(cmd=["sleep", "100"])
+    handler = OnProcessStart(on_start=lambda *_: started.set())
+    service.include_launch_description(LaunchDescription([RegisterEventHandler(handler), process]))
+
+    async def cancel():
+        running = asyncio.ensure_future(service.run_async())
+        await started.wait()
+        running.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await running
+        return await process._process.wait(60)
+
+    assert asyncio.run(cancel()) == -signal.SIGTERM
 
 
 def test_the_next_run_forgets_a_failure():
