@@ -14,6 +14,8 @@ from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    import subprocess
+
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
@@ -61,21 +63,11 @@ class Command(Substitution):
             SubstitutionFailure: The command cannot be run, fails, or writes to stderr where this
                 counts as a failure.
         """
-        import subprocess
-
         line = perform_substitutions(context, self._command)
         on_stderr = perform_substitutions(context, self._on_stderr)
         if on_stderr not in ("fail", "ignore", "warn", "capture"):
             raise SubstitutionFailure("expected one of: 'fail', 'ignore', 'warn' or 'capture'")
-        stderr = subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE
-        # On Windows, the split would break paths at their backslashes.
-        command = line if os.name == "nt" else _found(shlex.split(line))
-        try:
-            result = subprocess.run(  # noqa: S603
-                command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False
-            )
-        except FileNotFoundError as error:
-            raise SubstitutionFailure(f"file not found: {error}") from error
+        result = _run(line, capture=on_stderr == "capture")
         if result.returncode != 0:
             message = (
                 f"executed command failed. Command: {line}\nCaptured stderr output: {result.stderr}"
@@ -91,6 +83,33 @@ class Command(Substitution):
             if on_stderr == "warn":
                 logging.get_logger("launch.substitutions.command").warning("%s", message)
         return result.stdout
+
+
+def _run(line: str, *, capture: bool) -> subprocess.CompletedProcess[str]:
+    """Run a command line.
+
+    Args:
+        line: The command line.
+        capture: Whether what it writes to stderr belongs to its output.
+
+    Raises:
+        SubstitutionFailure: The command cannot be run.
+    """
+    import subprocess
+
+    stderr = subprocess.STDOUT if capture else subprocess.PIPE
+    try:
+        # On Windows, the split would break paths at their backslashes.
+        command = line if os.name == "nt" else _found(shlex.split(line))
+        if not command:
+            raise SubstitutionFailure("the command is empty")
+        return subprocess.run(  # noqa: S603
+            command, stdout=subprocess.PIPE, stderr=stderr, text=True, check=False
+        )
+    except FileNotFoundError as error:
+        raise SubstitutionFailure(f"file not found: {error}") from error
+    except (OSError, ValueError) as error:  # such as a missing quote, or output in Latin-1
+        raise SubstitutionFailure(f"command '{line}': {error}") from error
 
 
 def _found(command: list[str]) -> list[str]:

@@ -53,5 +53,5 @@ class FileContent(Substitution):
         try:
             with open(path, encoding="utf-8") as file:
                 return file.read()
-        except OSError as error:
+        except (OSError, UnicodeDecodeError) as error:
             raise SubstitutionFailure(f"Failed to read file '{path}': {error}") from error

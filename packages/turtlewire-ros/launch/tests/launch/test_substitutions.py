@@ -181,6 +181,14 @@ def test_command(context, capsys):
         Command([python, " -c 'raise SystemExit(3)'"]).perform(context)
     with pytest.raises(SubstitutionFailure, match="file not found"):
         Command("no_such_program").perform(context)
+    for line, problem in (
+        ("/", r"^command '/': .*Permission denied"),
+        ("echo 'x", r"^command 'echo 'x': No closing quotation"),
+        (" ", "^the command is empty$"),
+        (rf"{python} -c 'import sys; sys.stdout.buffer.write(bytes([255]))'", "can't decode"),
+    ):
+        with pytest.raises(SubstitutionFailure, match=problem):
+            Command(line).perform(context)
     with pytest.raises(
         SubstitutionFailure, match="expected one of: 'fail', 'ignore', 'warn' or 'capture'"
     ):
@@ -192,6 +200,9 @@ def test_files(context, tmp_path):
     assert FileContent(str(tmp_path / "x.txt")).perform(context) == "Grüße"
     with pytest.raises(SubstitutionFailure, match=r"Failed to read file 'nowhere'"):
         FileContent("nowhere").perform(context)
+    (tmp_path / "latin-1").write_bytes(b"Gr\xfc\xdfe")
+    with pytest.raises(SubstitutionFailure, match=r"Failed to read file '.*/latin-1': .*decode"):
+        FileContent(str(tmp_path / "latin-1")).perform(context)
     assert os.path.basename(FindExecutable(name="sh").perform(context)) == "sh"
     with pytest.raises(
         SubstitutionFailure, match=r"^executable 'no_such_program' not found on the PATH$"
