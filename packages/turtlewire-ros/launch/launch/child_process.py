@@ -95,10 +95,13 @@ class ChildProcess:
             return None
         return self._transport.get_returncode()
 
-    async def close(self) -> None:
-        """Read the rest of its output and close the streams; for after its end."""
+    async def read_rest(self) -> None:
+        """Read the rest of its output; for after its end."""
         with contextlib.suppress(asyncio.TimeoutError):
             await asyncio.wait_for(self._protocol.streams_closed.wait(), _DRAIN_S)
+
+    def close(self) -> None:
+        """Close the streams; a process that still runs is killed."""
         self._protocol.close_terminals()
         self._transport.close()
 

@@ -112,6 +112,7 @@ class LaunchService:
         try:
             return loop.run_until_complete(self.run_async(shutdown_when_idle=shutdown_when_idle))
         finally:
+            loop.run_until_complete(_cancel_other_tasks())
             loop.run_until_complete(loop.shutdown_asyncgens())
             loop.run_until_complete(loop.shutdown_default_executor())
             loop.close()
@@ -271,6 +272,14 @@ class LaunchService:
         self._logger.error("user interrupted with ctrl-\\ (%s), terminating...", name)
         self._return_code = 1
         self._shut_down(f"ctrl-\\ ({name})", due_to_sigint=False)
+
+
+async def _cancel_other_tasks() -> None:
+    """End what still runs when an exception, such as KeyboardInterrupt, has ended the launch."""
+    tasks = asyncio.all_tasks() - {asyncio.current_task()}
+    for task in tasks:
+        task.cancel()
+    await asyncio.gather(*tasks, return_exceptions=True)
 
 
 def _entities(

@@ -249,8 +249,11 @@ class ExecuteLocal(ProcessAction):
         # The launch may have ended while the process was starting, too early for a signal.
         if self._shutting_down.is_set():
             self._stop(context, send_sigint=True)
-        self._return_code = await process.wait()
-        await process.close()
+        try:
+            self._return_code = await process.wait()
+            await process.read_rest()
+        finally:
+            process.close()
         await context.emit_event(
             ProcessExited(action=self, returncode=self._return_code or 0, **self._event_details())
         )

@@ -207,6 +207,19 @@ def test_the_next_run_forgets_a_ctrl_c(caplog):
         assert caplog.messages[-1] == "user interrupted with ctrl-c (SIGINT)"
 
 
+def test_the_third_ctrl_c_ends_a_blocked_launch_and_its_processes():
+    def block(*_):
+        for _ in range(3):
+            signal.raise_signal(signal.SIGINT)
+
+    service, process = LaunchService(noninteractive=True), ExecuteProcess(cmd=["sleep", "100"])
+    handler = RegisterEventHandler(OnProcessStart(on_start=block))
+    service.include_launch_description(LaunchDescription([handler, process]))
+    with pytest.raises(KeyboardInterrupt):
+        service.run()
+    assert process.get_asyncio_future().done()
+
+
 def test_it_runs_in_another_thread_too():
     service = LaunchService(noninteractive=True)
     started, ended = threading.Event(), threading.Event()
