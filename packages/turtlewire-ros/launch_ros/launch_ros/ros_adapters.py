@@ -76,6 +76,11 @@ class ROSAdapter:
         """The executor; None before the start."""
         return cast("SingleThreadedExecutor | None", self._executor)
 
+    @property
+    def has_ended(self) -> bool:
+        """True if it does not run."""
+        return self._thread is None
+
     def _spin(self) -> None:
         from rclpy.executors import ExternalShutdownException, ShutdownException
 
@@ -99,15 +104,15 @@ class ROSAdapter:
 
 
 def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
-    """Return the adapter of a launch. The first call makes it; it ends with the launch."""
+    """Return the adapter of a launch. The first call of a run makes it; it ends with the run."""
     adapter: ROSAdapter | None = context.get_locals_as_dict().get(_KEY)
-    if adapter is None:
-        adapter = ROSAdapter()
+    if adapter is None or (adapter.has_ended and not context.is_shutdown):
+        made = adapter = ROSAdapter()
         context.extend_globals({_KEY: adapter})
-        # After all others: they may still cancel what they have at the node.
-        context.register_event_handler(
-            OnShutdown(on_shutdown=lambda *_: adapter.shutdown()), append=True
-        )
+        # After all others: they may still cancel what they have at the node. Once: a second
+        # required process may end during the shutdown.
+        end = OnShutdown(on_shutdown=lambda *_: made.shutdown(), handle_once=True)
+        context.register_event_handler(end, append=True)
     return adapter
 
 

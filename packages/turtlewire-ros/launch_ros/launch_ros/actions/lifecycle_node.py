@@ -78,6 +78,8 @@ class LifecycleNode(Node):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Run the process, and watch the node's state."""
+        if context.is_shutdown:
+            return None
         entities = super().execute(context)
         self._manager = LifecycleEventManager(self)
         self._manager.setup_lifecycle_manager(context)

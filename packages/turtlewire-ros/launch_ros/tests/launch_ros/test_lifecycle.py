@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from launch import LaunchDescription, LaunchService
 from launch.actions import (
     EmitEvent,
     ExecuteProcess,
@@ -274,6 +275,27 @@ def test_ros_timers_follow_the_clock_of_the_scope(launch):
     still = RosTimer(period=0.001, actions=[LogInfo(msg="never")])
     ends = ExecuteProcess(cmd=[sys.executable, "-c", ""], on_exit=Shutdown())
     assert launch(SetUseSimTime(True), still, ends).messages == []
+
+
+def test_two_shutdowns_end_the_node_of_a_launch_once(launch):
+    outcome = launch(RosTimer(period=0.01, actions=[Shutdown(), Shutdown()]))
+    assert (outcome.status, "adapter" in outcome.text) == (0, False)
+
+
+def test_each_run_of_a_launch_has_its_own_node(caplog):
+    service = LaunchService(noninteractive=True)
+    for _ in range(2):
+        timer = RosTimer(period=0.01, actions=[LogInfo(msg="ticked")])
+        service.include_launch_description(LaunchDescription([timer]))
+        assert service.run() == 0
+    assert service.run() == 0
+    assert caplog.messages.count("ticked") == 2
+
+
+def test_a_managed_node_does_not_start_during_the_shutdown(context, managed):
+    context._run.is_shutdown = True
+    assert managed.execute(context) is None
+    assert managed.get_lifecycle_event_manager() is None
 
 
 def test_elements_of_managed_nodes(launch, tmp_path, monkeypatch):
