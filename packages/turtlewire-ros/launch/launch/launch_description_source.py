@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from launch.substitution import TextSubstitution, described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -55,8 +55,7 @@ class LaunchDescriptionSource:
         """
         if self._launch_description is None:
             self._load(perform_substitutions(context, self._location))
-        assert self._launch_description is not None
-        return self._launch_description
+        return cast("LaunchDescription", self._launch_description)
 
     @property
     def location(self) -> str:
@@ -76,4 +75,37 @@ class LaunchDescriptionSource:
 
     def _load(self, location: str) -> None:
         self._expanded_location = location
-        self._launch_description = self._get_launch_description(location)
+        description = self._get_launch_description(location)
+        _check(description, location)
+        self._launch_description = description
+
+
+def _check(description: object, location: str) -> None:
+    """Check what a launch file returned, because Python files may return anything.
+
+    Raises:
+        RuntimeError: It is not a launch description, or contains an object that is not an action.
+    """
+    from launch.launch_description import LaunchDescription
+
+    if not isinstance(description, LaunchDescription):
+        hint = "Its `return` is missing." if description is None else ""
+        raise _rejected(
+            f"generate_launch_description() in '{location}' returned {description!r}, "
+            "not a LaunchDescription",
+            hint,
+        )
+    for entity in description.describe_sub_entities():
+        if not hasattr(entity, "visit"):
+            hint = "Remove the comma after the action." if isinstance(entity, tuple) else ""
+            raise _rejected(
+                f"the LaunchDescription in '{location}' contains {entity!r}, which is not an action",
+                hint,
+            )
+
+
+def _rejected(message: str, hint: str) -> RuntimeError:
+    error = RuntimeError(message)
+    if hint:
+        vars(error)["hint"] = hint
+    return error

@@ -288,6 +288,33 @@ def test_errors_in_files_are_named_with_their_lines(launch, file, name, content,
     assert outcome.lines[-1] == f"  raised in {path}:{line}"
 
 
+@pytest.mark.parametrize(
+    ("result", "message", "hint"),
+    [
+        ("None", "returned None, not a LaunchDescription", "Its `return` is missing."),
+        ("[1]", "returned [1], not a LaunchDescription", None),
+        ("LaunchDescription", "LaunchDescription'>, not a LaunchDescription", None),
+        ("LaunchDescription(['x'])", "contains 'x', which is not an action", None),
+        (
+            "LaunchDescription([(Shutdown(),)])",
+            "which is not an action",
+            "Remove the comma after the action.",
+        ),
+    ],
+)
+def test_a_file_that_returns_something_else_is_rejected(launch, file, result, message, hint):
+    content = (
+        "from launch import LaunchDescription\nfrom launch.actions import Shutdown\n\n"
+        f"def generate_launch_description():\n    return {result}\n"
+    )
+    path = file("x.launch.py", content)
+    lines = launch(IncludeLaunchDescription(path)).lines
+    if hint:
+        assert lines.pop() == hint
+    assert f"in '{path}' " in lines[-1]
+    assert lines[-1].endswith(message)
+
+
 def test_the_innermost_line_of_a_file_is_named(launch, file):
     """Not the line that called the function in which the error was raised."""
     content = (
