@@ -66,9 +66,13 @@ def run(
     path = os.path.abspath(args.launch_test_file)
     if not os.path.isfile(path):
         parser.error(f"Test file '{args.launch_test_file}' does not exist")
+    if args.xmlpath and not _can_write(args.xmlpath):  # before tests that may take minutes
+        parser.error(f"argument --junit-xml: cannot write '{args.xmlpath}'")
     name = os.path.splitext(os.path.basename(path))[0]
     package = args.package_name or name
     module = _imported(name, path)
+    if module is None:
+        parser.error(f"Test file '{args.launch_test_file}' is not a Python file: .py is missing")
     if not hasattr(module, "generate_test_description"):
         parser.error(
             f"Test file '{args.launch_test_file}' is missing generate_test_description function"
@@ -101,10 +105,21 @@ def main() -> None:
     sys.exit(run(parser, args))
 
 
-def _imported(name: str, path: str) -> ModuleType:
-    """Return the file as a separate module; files next to it can be imported as in a script."""
-    sys.path.insert(0, os.path.dirname(path))
+def _can_write(path: str) -> bool:
+    if os.path.exists(path):
+        return not os.path.isdir(path) and os.access(path, os.W_OK)
+    return os.access(os.path.dirname(os.path.abspath(path)), os.W_OK)
+
+
+def _imported(name: str, path: str) -> ModuleType | None:
+    """Return the file as a separate module; files next to it can be imported as in a script.
+
+    None if it is not a Python file.
+    """
     specification: Any = importlib.util.spec_from_file_location(name, path)
+    if specification is None:
+        return None
+    sys.path.insert(0, os.path.dirname(path))
     module = importlib.util.module_from_spec(specification)
     sys.modules[name] = module  # dataclasses and pickle look for it there
     specification.loader.exec_module(module)

@@ -184,6 +184,13 @@ class TestDomain(unittest.TestCase):
             2,
             "must return a LaunchDescription that contains a launch_testing.actions.",
         ),
+        (["robot.urdf"], 2, "error: Test file 'robot.urdf' is not a Python file: .py is missing"),
+        (
+            ["without.py", "--junit-xml", "no_folder/report.xml"],
+            2,
+            "error: argument --junit-xml: cannot write 'no_folder/report.xml'",
+        ),
+        (["without.py", "--junit-xml", "."], 2, "argument --junit-xml: cannot write '.'"),
         ([SAMPLES / "sample_classes.py", "-s"], 0, "'who':\n        who speaks\n        (default"),
         (
             [SAMPLES / "sample_failing.py", "who=you"],
@@ -193,7 +200,8 @@ class TestDomain(unittest.TestCase):
     ],
 )
 def test_the_command_line(tmp_path, words, status, says):
-    (tmp_path / "empty.py").touch()
+    for name in ("empty.py", "robot.urdf"):
+        (tmp_path / name).touch()
     (tmp_path / "without.py").write_text(WITHOUT)
     done = run(*LAUNCH_TEST, *words, cwd=tmp_path)
     assert done.returncode == status, done.stdout
