@@ -141,10 +141,18 @@ def _not_sourced(workspace: Path, package: str) -> str:
     if not (install / _LAYOUT).is_file():
         return ""
     for prefix in (install / package, install):
-        if (prefix / MARKERS / package).is_file():
+        marker = prefix / MARKERS / package
+        if marker.is_symlink() and not marker.exists():  # `--symlink-install` writes full paths
+            return (
+                f"'{package}' is built in {_shown(install)}, but its links lead to files that do "
+                f"not exist: the workspace was moved, or build was removed. Type: {_enter(workspace)}"
+                "rm -rf build install && colcon build --symlink-install && "
+                "source install/setup.bash"
+            )
+        if marker.is_file():
             return (
                 f"'{package}' is built in {_shown(install)}, but this shell does not know it: "
-                f"source {shlex.quote(_shown(install / 'setup.bash'))}"
+                f"source {_quoted(install / 'setup.bash')}"
             )
         if (prefix / "share" / package / "package.xml").is_file():
             return (
@@ -215,8 +223,15 @@ def _source_below(top: Path, package: str) -> Path | None:
 
 def _build(package: str, workspace: Path) -> str:
     """Return the commands that build a package."""
-    enter = "" if workspace == Path.cwd() else f"cd {shlex.quote(_shown(workspace))} && "
-    return f"{enter}colcon build --packages-select {package}"
+    return f"{_enter(workspace)}colcon build --packages-select {package}"
+
+
+def _enter(workspace: Path) -> str:
+    return "" if workspace == Path.cwd() else f"cd {_quoted(workspace)} && "
+
+
+def _quoted(path: Path) -> str:
+    return shlex.quote(_shown(path))
 
 
 def _shown(path: Path) -> str:

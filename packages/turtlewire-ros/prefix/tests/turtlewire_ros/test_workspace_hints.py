@@ -78,6 +78,19 @@ def test_a_package_that_is_built_and_not_sourced(workspace, monkeypatch, capsys)
     assert package_hint("p").endswith(f": source {workspace.root.name}/install/setup.bash")
 
 
+def test_a_package_of_a_workspace_that_was_moved(workspace, monkeypatch):
+    """`colcon build --symlink-install` fails there until its folders are removed."""
+    workspace.build()
+    marker = workspace.prefix / "share/ament_index/resource_index/packages/p"
+    marker.unlink()
+    marker.symlink_to(workspace.root.parent / "old ws/build/p/resource/p")
+    again = "rm -rf build install && colcon build --symlink-install && source install/setup.bash"
+    assert package_hint("p").endswith(f" was removed. Type: {again}")
+    moved = workspace.root.rename(workspace.root.parent / "new ws")
+    monkeypatch.chdir(moved.parent)
+    assert package_hint("p").endswith(f" was removed. Type: cd 'new ws' && {again}")
+
+
 def test_a_package_whose_marker_is_not_installed(workspace):
     workspace.build()
     (workspace.prefix / "share/ament_index/resource_index/packages/p").unlink()
