@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
+import shlex
 import signal
 import sys
 import threading
@@ -156,7 +158,7 @@ def start(folder: Path, names: Sequence[str]) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
     count = len({path.parent for path in wanted})
-    print(f"{count} exercises in {printable(str(folder))}")  # noqa: T201
+    print(f"{count} exercise{'' if count == 1 else 's'} in {printable(str(folder))}")  # noqa: T201
 
 
 def check(folder: Path, names: Sequence[str], limit_s: float, junit: Path | None) -> int:
@@ -167,6 +169,13 @@ def check(folder: Path, names: Sequence[str], limit_s: float, junit: Path | None
     if not names:  # what the folder holds
         wanted = [exercise for exercise in wanted if (folder / exercise.name).is_dir()]
     if not wanted:
+        here = folder.resolve()
+        if here.name in (exercise.name for exercise in exercises()):
+            above = shlex.quote(printable(os.path.relpath(here.parent)))
+            raise ClassError(
+                f"{printable(str(folder))} is a single exercise: "
+                f"`turtlewire class check {above} -e {here.name}` checks it"
+            )
         raise ClassError(
             f"{printable(str(folder))} holds no exercise: `turtlewire class start "
             f"{printable(str(folder))}` puts their first files there"
@@ -200,7 +209,7 @@ def grade(folder: Path, names: Sequence[str], limit_s: float, output: Path) -> N
         ClassError: No students were found, an exercise does not exist, or the reports cannot be
             written.
     """
-    students, wanted = students_in(folder), chosen(names)
+    students, wanted = students_in(folder, output), chosen(names)
     if output.exists() and not output.is_dir():
         raise ClassError(f"{printable(str(output))} is not a folder for the reports")
     reports = grade_all(students, wanted, Limits(seconds=limit_s), _progress)

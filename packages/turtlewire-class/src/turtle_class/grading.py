@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import queue
+import shlex
 import signal
 import threading
 from collections.abc import Callable, Sequence
@@ -11,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtle_class import ClassError
+from turtle_class.catalogue import exercises
 from turtle_class.runner import CheckResult, Outcome, Runner
 from turtle_class.seclusion import hidden
 from turtlewire.terminal.printable import printable
@@ -47,21 +49,34 @@ class GradeReport(NamedTuple):
         return sum(outcome.passed for outcome in self.outcomes)
 
 
-def students_in(folder: Path) -> list[Path]:
+def students_in(folder: Path, reports: Path) -> list[Path]:
     """Return the students' folders, by name.
 
+    Args:
+        folder: It has a folder for each student.
+        reports: The folder of the reports, which may be there since the last time.
+
     Raises:
-        ClassError: The folder does not exist, or has no subfolders.
+        ClassError: The folder does not exist, has no subfolders, or holds exercises.
     """
     if not folder.is_dir():
         raise ClassError(f"there is no folder {printable(str(folder))}")
     found = sorted(
-        each for each in folder.iterdir() if each.is_dir() and not each.name.startswith(".")
+        each
+        for each in folder.iterdir()
+        if each.is_dir()
+        and not each.name.startswith(".")
+        and not (reports.exists() and each.samefile(reports))
     )
     if not found:
         raise ClassError(
             f"{printable(str(folder))} holds no folders: it must have one for each student, with "
             "a folder for each exercise in it (ana/static/static_frame_broadcaster.py)"
+        )
+    if {each.name for each in found} <= {exercise.name for exercise in exercises()}:
+        raise ClassError(
+            f"{printable(str(folder))} holds exercises, not a folder for each student: "
+            f"`turtlewire class check {shlex.quote(printable(str(folder)))}` checks them"
         )
     return found
 

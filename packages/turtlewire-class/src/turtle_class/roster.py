@@ -61,8 +61,10 @@ def read_roster(path: Path) -> list[Seat]:
     file = printable(path.name)
     try:
         text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ClassError(f"the roster {file} cannot be read: {error}") from None
+    except OSError as error:
+        raise ClassError(f"the roster {file} cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise ClassError(f"the roster {file} is not UTF-8: save it as UTF-8") from None
     rows = _yaml_rows(text, file) if path.suffix in {".yaml", ".yml"} else _csv_rows(text, file)
     seats = _unique(
         (

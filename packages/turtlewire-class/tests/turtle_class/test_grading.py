@@ -272,6 +272,15 @@ def test_a_student_checks_the_own_folder(submissions, tmp_path, capsys):
     assert ET.parse(xml).getroot().get("failures") == "1"
 
 
+def test_reports_are_not_a_student_the_next_time(tmp_path, monkeypatch, capsys):
+    (tmp_path / "ana").mkdir()
+    monkeypatch.chdir(tmp_path)
+    for _ in range(2):
+        assert main(["class", "grade", ".", "-e", "static"]) == 0
+        told = capsys.readouterr().out
+        assert told == "ana  0 of 1 solved\nThe reports are at reports/index.html\n"
+
+
 def test_report_files_keep_the_letters_of_names(tmp_path):
     submissions = tmp_path / "in"
     for name in ("Björn", "李雷", "<b> x", "ana", "Ana"):
@@ -284,9 +293,10 @@ def test_report_files_keep_the_letters_of_names(tmp_path):
     assert 'href="Bj%C3%B6rn.html"' in overview
 
 
-def test_first_files_are_written_once(tmp_path, capsys):
+def test_first_files_are_written_once(tmp_path, monkeypatch, capsys):
     folder = tmp_path / "mine"
     assert main(["class", "start", str(folder), "-e", "camera"]) == 0
+    assert capsys.readouterr().out == f"1 exercise in {folder}\n"
     assert sorted(path.name for path in (folder / "camera").iterdir()) == [
         "README.md",
         "camera_tf2_broadcaster.py",
@@ -295,6 +305,9 @@ def test_first_files_are_written_once(tmp_path, capsys):
     assert main(["class", "start", str(folder), "-e", "camera"]) == 2
     assert "README.md exists already; nothing was written" in capsys.readouterr().err
     assert main(["class", "check", str(folder)]) == 1
+    monkeypatch.chdir(folder / "camera")
+    assert main(["class", "check"]) == 2
+    assert "`turtlewire class check .. -e camera` checks it" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -303,12 +316,16 @@ def test_first_files_are_written_once(tmp_path, capsys):
         (["grade", "nowhere"], "there is no folder nowhere"),
         (["grade", "."], "holds no folders: it must have one for each student"),
         (["check", "."], "holds no exercise"),
+        (["check", "my work/static"], "`turtlewire class check 'my work' -e static` checks it"),
+        (["grade", "my work"], "`turtlewire class check 'my work'` checks them"),
         (["check", ".", "-e", "statik"], "there is no exercise 'statik'; choose from static"),
         (["start", ".", "-e", "fixd_carrot"], "Did you mean: fixed_carrot"),
     ],
 )
 def test_wrong_words_are_answered(tmp_path, monkeypatch, capsys, words, told):
     monkeypatch.chdir(tmp_path)
+    if "my work" in words[1]:
+        Path("my work/static").mkdir(parents=True)
     assert main(["class", *words]) == 2
     assert told in capsys.readouterr().err
 

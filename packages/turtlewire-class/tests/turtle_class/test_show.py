@@ -319,5 +319,11 @@ def test_a_wrong_roster(tmp_path, name, text, told):
 
 
 def test_a_roster_that_is_not_there(tmp_path):
-    with pytest.raises(ClassError, match=r"the roster none\.csv cannot be read: .*No such file"):
+    with pytest.raises(ClassError, match=r"the roster none\.csv cannot be read: No such file"):
         read_roster(tmp_path / "none.csv")
+
+
+def test_a_roster_in_another_encoding(tmp_path):
+    (tmp_path / "old.csv").write_bytes("Björn,2\n".encode("latin-1"))
+    with pytest.raises(ClassError, match=r"^the roster old\.csv is not UTF-8: save it as UTF-8$"):
+        read_roster(tmp_path / "old.csv")
