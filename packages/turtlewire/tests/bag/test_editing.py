@@ -3,6 +3,7 @@
 import os
 import random
 import shutil
+import sys
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -394,6 +395,14 @@ def test_each_piece_begins_with_the_latched_messages(tmp_path, how):
         topics = [message[0] for message in everything(path)]
         assert topics[:3] == ["/map", "/map", "/tf_static"]
         assert set(topics[3:]) == {"/tick"}
+
+
+def test_a_compression_whose_package_is_missing(tmp_path, monkeypatch):
+    text_bag(tmp_path / "in", [START])
+    monkeypatch.setitem(sys.modules, "lz4.frame", None)
+    with pytest.raises(BagError, match="^lz4 needs the package 'lz4', which is missing"):
+        copy_bag(tmp_path / "in", tmp_path / "out", compression="lz4")
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("compression", ["none", "zstd"])

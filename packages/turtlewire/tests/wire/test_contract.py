@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 import threading
 import time
 import weakref
@@ -34,6 +35,7 @@ from turtlewire.wire.qos import (
     QoS,
     Reliability,
 )
+from turtlewire.wire.wheels import Platform
 
 STRING = TypeId(
     "std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
@@ -858,6 +860,17 @@ def test_an_unknown_middleware_is_named():
     with pytest.raises(WireError, match="'rmw_nonsense' is not available") as caught:
         open_context(middleware="rmw_nonsense")
     assert "rmw_cyclonedds_cpp" in caught.value.hint
+
+
+def test_missing_zenoh_is_told_without_advice_about_cyclone(monkeypatch):
+    monkeypatch.setitem(sys.modules, "zenoh", None)
+    monkeypatch.setattr(
+        "turtlewire.wire.zenoh.library.this_platform",
+        lambda: Platform("linux", "x86_64", (3, 12), usual=True),
+    )
+    with pytest.raises(WireError, match="^Zenoh is not available") as caught:
+        open_context(middleware="rmw_zenoh_cpp")
+    assert caught.value.hint == "Type: pip install 'turtlewire[zenoh]'."
 
 
 def wait_for_event(node: Node, event, expected) -> EventStatus:

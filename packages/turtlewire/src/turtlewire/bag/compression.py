@@ -195,7 +195,7 @@ def _lz4_frame() -> Any:
     try:
         import lz4.frame
     except ImportError:
-        raise BagError("this bag needs the package 'lz4', which is missing").with_hint(
+        raise BagError("lz4 needs the package 'lz4', which is missing").with_hint(
             "Install it with `pip install lz4`."
         ) from None
     return lz4.frame

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypedDict
 
+from turtlewire.bag.compression import compress
 from turtlewire.bag.copying import ChunkCopy, MessageCopy, can_copy_chunks
 from turtlewire.bag.extra_records import extras_of_bags, left_out
 from turtlewire.bag.frame_renaming import FrameRenaming
@@ -427,5 +428,6 @@ def _compression_options(compression: str, storage: str) -> dict[str, str]:
     if compression == "none":
         return {}
     if storage == "mcap":
+        compress(compression, b"")  # if a package is missing, no bag is damaged
         return {"compression": compression}
     return {"compression_mode": "MESSAGE"}

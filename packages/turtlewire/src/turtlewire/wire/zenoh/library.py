@@ -20,7 +20,9 @@ def require_zenoh() -> None:
         import_module("xxhash")
     except ImportError as error:
         failed = WireError(f"Zenoh is not available: {error}")
-        raise failed.with_hint(advice(this_platform())) from error
+        here = this_platform()
+        hint = "Type: pip install 'turtlewire[zenoh]'." if here.has_zenoh else advice(here)
+        raise failed.with_hint(hint) from error
 
 
 def reason_of(error: Exception) -> str:
