@@ -162,6 +162,7 @@ def fingerprint() -> str:
         files += [*folder.glob("*.toml"), *folder.glob("setup.*"), *folder.glob("*_build.py")]
         other = (".py", ".typed")  # code, and what the installation itself writes
         files += [path for path in folder.glob("prefix/**/*") if path.suffix not in other]
+        files += folder.glob("prefix/share/**/*.py")  # launch files, which pip copies
     files += ROS.glob("*/*/share/**/*")
     msg = ENGINE / "src" / "turtlewire" / "msg"
     files += [msg / "generate.py", *msg.glob("interfaces/*")]

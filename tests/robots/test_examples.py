@@ -3,6 +3,7 @@
 import importlib
 import math
 import re
+import shutil
 import time
 from functools import partial
 
@@ -23,8 +24,14 @@ def _import_the_examples(monkeypatch):
     monkeypatch.syspath_prepend(str(ROBOTS))
 
 
-def test_the_walker_walks(run):
-    launch = run(ROS2, "launch", ROBOTS / "walker.launch.py")
+@pytest.fixture
+def robots(tmp_path):
+    """A copy of the robots in a folder with a space."""
+    return shutil.copytree(ROBOTS, tmp_path / "my robots")
+
+
+def test_the_walker_walks(run, robots):
+    launch = run(ROS2, "launch", robots / "walker.launch.py")
     launch.wait_for(r"\[robot_state_publisher\]: Robot initialized")
     echo = run(ROS2, "run", "tf2_ros", "tf2_echo", "odom", "left_front_foot")
     echo.wait_for(r"^- Translation: \[", count=2)
@@ -32,8 +39,8 @@ def test_the_walker_walks(run):
     launch.end()
 
 
-def test_the_rover_drives(run):
-    launch = run(ROS2, "launch", ROBOTS / "rover.launch.py")
+def test_the_rover_drives(run, robots):
+    launch = run(ROS2, "launch", robots / "rover.launch.py")
     launch.wait_for(r"\[robot_state_publisher\]: Robot initialized")
     twist = "{linear: {x: 1.0}}"
     teleop = run(ROS2, "topic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/msg/Twist", twist)
@@ -81,13 +88,15 @@ def test_three_feet_of_the_walker_are_always_on_the_ground():
 def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", PATH)
     monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")
-    monkeypatch.chdir(tmp_path)
+    folder = tmp_path / "my lamp"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
     names = iter(re.findall(r"^Save this as `(\S+)`:$", PAGE.read_text(), re.MULTILINE))
     background = []
     checked = 0
     for kind, text in blocks(PAGE.read_text()):
         if kind in {"xml", "python"}:
-            (tmp_path / next(names)).write_text(text)
+            (folder / next(names)).write_text(text)
         elif kind == "sh":
             for line in text.splitlines():
                 if line.endswith(" &"):

@@ -129,6 +129,19 @@ def test_changed_sources_are_installed_with_the_extras_there_are(setup, monkeypa
     assert words.count("-e") == len(setup.distributions())
 
 
+def test_a_changed_launch_file_of_a_prefix_is_installed(setup, monkeypatch, tmp_path):
+    for name in ("ROOT", "ROS", "ENGINE", "LEARNING"):
+        monkeypatch.setattr(setup, name, tmp_path)
+    monkeypatch.setattr(setup, "distributions", lambda: [tmp_path])
+    monkeypatch.setattr(setup, "packages", list)
+    launch_file = tmp_path / "prefix" / "share" / "p" / "launch" / "p.launch.py"
+    launch_file.parent.mkdir(parents=True)
+    launch_file.write_text("old")
+    before = setup.fingerprint()
+    launch_file.write_text("new")
+    assert setup.fingerprint() != before
+
+
 def test_changed_native_sources_install_no_package(setup, monkeypatch):
     setup.main([])
     setup.calls.clear()

@@ -152,13 +152,14 @@ def test_a_launch_file_of_cpp_components_runs(ros2, tmp_path):
 
 @pytest.fixture
 def robot_package(tmp_path, monkeypatch):
-    """A prefix with the package `my_robot`."""
-    marker = tmp_path / "share/ament_index/resource_index/packages/my_robot"
-    urdf = tmp_path / "share/my_robot/urdf/r.urdf.xacro"
+    """A prefix with the package `my_robot`, in a folder with a space."""
+    prefix = tmp_path / "my prefix"
+    marker = prefix / "share/ament_index/resource_index/packages/my_robot"
+    urdf = prefix / "share/my_robot/urdf/r.urdf.xacro"
     for path, text in ((marker, ""), (urdf, ROBOT)):
         path.parent.mkdir(parents=True)
         path.write_text(text)
-    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
     return ("urdf_package:=my_robot", "urdf_package_path:=urdf/r.urdf.xacro")
 
 
