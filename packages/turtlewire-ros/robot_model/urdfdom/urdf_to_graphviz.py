@@ -53,8 +53,11 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _write(path: str, data: bytes) -> None:
-    with open(path, "wb") as file:
-        file.write(data)
+    try:
+        with open(path, "wb") as file:
+            file.write(data)
+    except OSError as error:  # of a full disk, it names no file
+        raise OSError(error.errno, error.strerror, path) from None
     print(f"Created file {printable(path)}")  # noqa: T201
 
 

@@ -78,12 +78,15 @@ def _save(path: str, selection: Selection) -> int:
     with contextlib.closing(wire.open_context()) as context:
         wait_for_graph(context.graph)
         picture = read_graph(context.graph, context.domain_id)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(writer(picture, selection))
+    try:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(writer(picture, selection))
+    except OSError as error:  # of a full disk, it names no file
+        raise OSError(error.errno, error.strerror, path) from None
     if not picture.nodes and (others := network.other_domains(picture.domain_id)):
         print(
-            f"Domain {picture.domain_id} has no nodes. This computer has nodes on domain "
-            f"{', '.join(map(str, others))}: export ROS_DOMAIN_ID={others[0]}",
+            f"Domain {picture.domain_id} has no nodes. This computer has nodes on "
+            f"{network.named_domains(others)}: export ROS_DOMAIN_ID={others[0]}",
             file=sys.stderr,
         )
     shown = select(picture, selection)

@@ -94,11 +94,19 @@ def test_the_graph_is_saved(graph, talker, tmp_path, suffix):
 
 
 def test_an_empty_domain_is_said_if_others_have_nodes(monkeypatch, capsys, tmp_path):
-    monkeypatch.setattr(network, "other_domains", lambda domain: [3, 5])
+    monkeypatch.setattr(network, "other_domains", lambda domain: [3, 5, 9])
     assert main(["graph", "--save", str(tmp_path / "graph.json")]) == 0
     said = capsys.readouterr()
     assert said.out.endswith("graph.json: nodes 0, topics 0, mismatches 0\n")
-    assert said.err.endswith("This computer has nodes on domain 3, 5: export ROS_DOMAIN_ID=3\n")
+    assert said.err.endswith("This computer has nodes on domains 3, 5 and 9: export ROS_DOMAIN_ID=3\n")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/full")
+def test_a_full_disk_is_reported_with_the_file(capsys, tmp_path):
+    path = tmp_path / "graph.svg"
+    path.symlink_to("/dev/full")
+    assert main(["graph", "--save", str(path)]) == 2
+    assert capsys.readouterr().err.endswith(f": {path}: No space left on device\n")
 
 
 def test_a_wrong_suffix_is_refused_before_the_network_is_joined(graph, tmp_path):

@@ -30,8 +30,9 @@ def other_domains(domain: int) -> list[int]:
 
 
 def named_domains(domains: list[int]) -> str:
-    """Return the domains in words, such as ``domain 0`` or ``domains 0 and 51``."""
-    return f"domain{'s' * (len(domains) > 1)} {' and '.join(map(str, domains))}"
+    """Return the domains in words, such as ``domain 0`` or ``domains 0, 7 and 51``."""
+    *first, last = map(str, domains)
+    return f"domains {', '.join(first)} and {last}" if first else f"domain {last}"
 
 
 def other_domains_hint(domain: int) -> str:

@@ -167,6 +167,6 @@ def reporting_errors(
 
 def _text_of(error: Exception) -> str:
     """Return the error's message; system errors lose their number."""
-    if isinstance(error, OSError) and error.strerror and error.filename:
-        return f"{error.filename}: {error.strerror}"
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     return str(error)
