@@ -99,10 +99,10 @@ def run(
 
 
 @program
-def main() -> None:
-    """Run the command line of this process, and end it."""
+def main() -> int:
+    """Run the command line of this process; return its exit status."""
     parser, args = parse_arguments()
-    sys.exit(run(parser, args))
+    return run(parser, args)
 
 
 def _can_write(path: str) -> bool:
@@ -127,4 +127,4 @@ def _imported(name: str, path: str) -> ModuleType | None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -208,6 +208,14 @@ def test_the_command_line(tmp_path, words, status, says):
     assert says in done.stdout
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/full")
+def test_a_full_disk_is_named():
+    command = shlex.join([*LAUNCH_TEST, str(SAMPLES / "sample_classes.py")])
+    done = run("bash", "-c", f"{command} 2>&1 >/dev/full")
+    assert done.returncode == 1
+    assert done.stdout.endswith(": write error: No space left on device\n")
+
+
 def test_ros2_test_chooses_a_domain(tmp_path, monkeypatch):
     (tmp_path / "test_domain.py").write_text(DOMAIN)
     monkeypatch.delenv("ROS_DOMAIN_ID")
