@@ -5,13 +5,14 @@ from __future__ import annotations
 import itertools
 import os
 import queue
+import runpy
 import signal
 import subprocess
 import sys
 
 import platforms
 import pytest
-from tests.places import ENGINE, ROOT
+from tests.places import ENGINE, ROOT, TOOLS
 
 from turtlewire import demo
 from turtlewire.terminal.console_keyboard import ConsoleKeyboard
@@ -96,6 +97,27 @@ def test_the_demo_says_which_package_lacks(monkeypatch, capsys):
     said = capsys.readouterr().err
     assert "not installed: turtlesim\n" in said
     assert said.endswith("-m pip install ./packages/turtlewire-ros\n")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="quotes of a Unix shell")
+def test_the_demo_quotes_a_path_with_a_space(monkeypatch, capsys):
+    monkeypatch.setattr(demo, "_ros2", lambda: "/my env/bin/ros2")
+    monkeypatch.setattr(demo, "_run", lambda command, seconds: 0)
+    assert demo.main([]) == 0
+    assert "    '/my env/bin/ros2' run turtlesim turtle_teleop_key\n" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="quotes of a Unix shell")
+def test_the_bundle_quotes_a_path_with_a_space(monkeypatch, capsys, tmp_path):
+    start = runpy.run_path(str(TOOLS / "bundle_files" / "start.py"))["main"]
+    monkeypatch.setitem(start.__globals__, "WHEELS", tmp_path)  # nothing to install
+    folder = tmp_path / "my class"
+    folder.mkdir()
+    (folder / "installed").touch()
+    monkeypatch.setattr(sys, "argv", ["start.py", "--install-only", "--into", str(folder)])
+    assert start() == 0
+    (first, _) = capsys.readouterr().out.splitlines()
+    assert first == f"In other terminals, type first:  . '{folder}/bin/activate'"
 
 
 DEMO_VARIABLES = {"TURTLEWIRE_BROWSER": "0", "TURTLEWIRE_PORT": "0"}

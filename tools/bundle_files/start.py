@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import platform
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -41,9 +42,10 @@ def main() -> int:
         if status:
             return status
         done.write_text(wanted, encoding="utf-8")
-    activate = commands / "activate" if sys.platform != "win32" else commands / "Activate.ps1"
-    dot = "" if sys.platform == "win32" else ". "
-    print(f"In other terminals, type first:  {dot}{activate}")
+    activate = f". {shlex.quote(str(commands / 'activate'))}"
+    if sys.platform == "win32":
+        activate = str(commands / "Activate.ps1")
+    print(f"In other terminals, type first:  {activate}")
     print(f"Exercises and documents are in {HERE}.", flush=True)
     if arguments.install_only:
         return 0

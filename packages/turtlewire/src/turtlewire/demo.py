@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import subprocess
 import sys
 import sysconfig
@@ -52,9 +53,10 @@ def main(argv: list[str] | None = None) -> int:
         )
         return 1
     ros2 = _ros2()
+    typed = ros2 if sys.platform == "win32" else shlex.quote(ros2)
     sys.stdout.write(
         "[demo] drive turtle1 with the arrow keys, in the page or in a second terminal:\n"
-        f"[demo]     {ros2} run turtlesim turtle_teleop_key\n"
+        f"[demo]     {typed} run turtlesim turtle_teleop_key\n"
         "[demo] Ctrl-C ends it\n"
     )
     sys.stdout.flush()
