@@ -84,7 +84,8 @@ def _check(description: object, location: str) -> None:
     """Check what a launch file returned, because Python files may return anything.
 
     Raises:
-        RuntimeError: It is not a launch description, or contains an object that is not an action.
+        RuntimeError: The result is not a launch description, or contains an object that is not an
+            action.
     """
     from launch.launch_description import LaunchDescription
 
@@ -99,7 +100,8 @@ def _check(description: object, location: str) -> None:
         if not hasattr(entity, "visit"):
             hint = "Remove the comma after the action." if isinstance(entity, tuple) else ""
             raise _rejected(
-                f"the LaunchDescription in '{location}' contains {entity!r}, which is not an action",
+                f"the LaunchDescription in '{location}' contains {entity!r}, "
+                "which is not an action",
                 hint,
             )
 

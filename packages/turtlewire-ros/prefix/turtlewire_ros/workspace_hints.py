@@ -145,8 +145,8 @@ def _not_sourced(workspace: Path, package: str) -> str:
         if marker.is_symlink() and not marker.exists():  # `--symlink-install` writes full paths
             return (
                 f"'{package}' is built in {_shown(install)}, but its links lead to files that do "
-                f"not exist: the workspace was moved, or build was removed. Type: {_enter(workspace)}"
-                "rm -rf build install && colcon build --symlink-install && "
+                "not exist: the workspace was moved, or build was removed. Type: "
+                f"{_enter(workspace)}rm -rf build install && colcon build --symlink-install && "
                 "source install/setup.bash"
             )
         if marker.is_file():

@@ -98,7 +98,9 @@ def test_an_empty_domain_is_said_if_others_have_nodes(monkeypatch, capsys, tmp_p
     assert main(["graph", "--save", str(tmp_path / "graph.json")]) == 0
     said = capsys.readouterr()
     assert said.out.endswith("graph.json: nodes 0, topics 0, mismatches 0\n")
-    assert said.err.endswith("This computer has nodes on domains 3, 5 and 9: export ROS_DOMAIN_ID=3\n")
+    assert said.err.endswith(
+        "This computer has nodes on domains 3, 5 and 9: export ROS_DOMAIN_ID=3\n"
+    )
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/full")

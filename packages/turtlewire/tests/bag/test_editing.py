@@ -400,7 +400,7 @@ def test_each_piece_begins_with_the_latched_messages(tmp_path, how):
 def test_a_compression_whose_package_is_missing(tmp_path, monkeypatch):
     text_bag(tmp_path / "in", [START])
     monkeypatch.setitem(sys.modules, "lz4.frame", None)
-    with pytest.raises(BagError, match="^lz4 needs the package 'lz4', which is missing"):
+    with pytest.raises(BagError, match=r"^lz4 needs the package 'lz4', which is missing"):
         copy_bag(tmp_path / "in", tmp_path / "out", compression="lz4")
     assert not (tmp_path / "out").exists()
 

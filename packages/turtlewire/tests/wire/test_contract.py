@@ -868,7 +868,7 @@ def test_missing_zenoh_is_told_without_advice_about_cyclone(monkeypatch):
         "turtlewire.wire.zenoh.library.this_platform",
         lambda: Platform("linux", "x86_64", (3, 12), usual=True),
     )
-    with pytest.raises(WireError, match="^Zenoh is not available") as caught:
+    with pytest.raises(WireError, match=r"^Zenoh is not available") as caught:
         open_context(middleware="rmw_zenoh_cpp")
     assert caught.value.hint == "Type: pip install 'turtlewire[zenoh]'."
 
