@@ -405,6 +405,12 @@ def test_a_compression_whose_package_is_missing(tmp_path, monkeypatch):
     assert not (tmp_path / "out").exists()
 
 
+def test_a_name_that_is_not_utf_8_is_refused(tmp_path):
+    text_bag(tmp_path / "in", [START])
+    with pytest.raises(BagError, match=r"^the name 'l\\udce9' is not UTF-8"):
+        copy_bag(tmp_path / "in", tmp_path / "l\udce9")
+
+
 @pytest.mark.parametrize("compression", ["none", "zstd"])
 def test_pieces_have_about_the_size(tmp_path, compression):
     with BagWriter(tmp_path / "in", chunk_bytes=5000) as writer:

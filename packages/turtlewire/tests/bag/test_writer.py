@@ -303,6 +303,13 @@ def test_options_without_effect_are_refused(tmp_path, options):
     assert not (tmp_path / "made").exists()
 
 
+def test_a_name_that_is_not_utf_8_is_refused(tmp_path):
+    """The messages would be written, and metadata.yaml not."""
+    with pytest.raises(BagError, match=r"^the name 'l\\udce9' is not UTF-8"):
+        BagWriter(tmp_path / "l\udce9")
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize(("max_file_ns", "counts"), [(0, [4]), (9, [1, 1, 2]), (10, [2, 2])])
 def test_a_message_at_the_end_of_a_file_belongs_to_it(tmp_path, max_file_ns, counts):
     with BagWriter(tmp_path / "made", max_file_ns=max_file_ns) as writer:

@@ -24,6 +24,7 @@ from turtlewire.bag.progress import progress_line
 from turtlewire.bag.reader import open_bag
 from turtlewire.bag.times import date_text, duration_ns, moment_ns, size_bytes
 from turtlewire.bag.unfinished import new_folder
+from turtlewire.bag.writer_checks import check_name
 from turtlewire.errors import BagError
 from turtlewire.terminal.suggestion import did_you_mean
 
@@ -265,6 +266,7 @@ class _Operation:
             self._extras = []
 
     def run(self, target: _Path) -> WrittenBags:
+        check_name(os.path.basename(os.path.abspath(target)))
         tell = self._options.get("progress") or progress_line(
             f"writing {os.path.basename(os.path.abspath(target))}"
         )

@@ -29,6 +29,7 @@ from turtlewire.bag.sqlite_writer import SqliteWriter, merge_by_copy
 from turtlewire.bag.writer_checks import (
     ENDINGS,
     as_cdr,
+    check_name,
     check_options,
     check_sizes,
     checked_type_name,
@@ -144,6 +145,7 @@ class BagWriter:
         check_options(storage, compression, level, compression_mode, metadata_version)
         check_sizes(chunk_bytes, max_file_bytes, max_file_ns, max_files)
         self.path = os.path.abspath(path_text(path, what="path of a new folder"))
+        check_name(os.path.basename(self.path))
         self._chunks: dict[str, Any] = {
             "compression": compression,
             "level": level,

@@ -15,6 +15,7 @@ from turtlewire.msg import Message, serialize
 __all__ = [
     "ENDINGS",
     "as_cdr",
+    "check_name",
     "check_options",
     "check_sizes",
     "checked_type_name",
@@ -28,6 +29,20 @@ ENDINGS = {"mcap": "mcap", "sqlite3": "db3"}
 
 _MODES = ("", "FILE", "MESSAGE")
 _TYPE_NAME = re.compile(r"\w+/\w+/\w+")
+
+
+def check_name(name: str) -> None:
+    """Refuse a name whose bytes are not UTF-8: metadata.yaml, which is UTF-8, contains it.
+
+    Raises:
+        BagError: With what to do.
+    """
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        raise BagError(f"the name {name!r} is not UTF-8").with_hint(
+            "Choose another name, because metadata.yaml contains it."
+        ) from None
 
 
 def check_options(
