@@ -139,7 +139,8 @@ class Roles:
     def inspect(self, i: int) -> None:
         assert all(name.startswith(("f", "signal", "heard")) for name in self.buffer.frames())
         assert self.buffer.to_yaml()
-        assert self.buffer.explain("f0", "nowhere").frame == "nowhere"
+        # The target is checked first: another thread may just have removed f0.
+        assert self.buffer.explain("nowhere", "f0").frame == "nowhere"
         self.buffer.time_range("f0", "f3")
 
     def hear_of_changes(self, i: int) -> None:
