@@ -190,7 +190,7 @@ except (KeyboardInterrupt, rclpy.executors.ExternalShutdownException) as error:
     ("signum", "ending"),
     [(signal.SIGINT, "KeyboardInterrupt"), (signal.SIGTERM, "ExternalShutdownException")],
 )
-@pytest.mark.parametrize("endless", ["rclpy.spin(node)", "while rclpy.ok(): rclpy.spin_once(node)"])
+@pytest.mark.parametrize("endless", ["rclpy.spin(node)", "while True: rclpy.spin_once(node)"])
 def test_signals_end_spin_after_asyncio_handled_them(start, middleware, signum, ending, endless):
     program = start(AFTER_ASYNCIO.replace("rclpy.spin(node)", endless), middleware)
     program.send_signal(signum)
