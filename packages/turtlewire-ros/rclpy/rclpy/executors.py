@@ -21,7 +21,7 @@ from ._execution.pool import PoolScheduler
 from ._execution.scheduler import Scheduler
 from .impl.hints import described, with_hint
 from .impl.reexports import reexports
-from .signals import rearm
+from .signals import rearm, rearm_after_loops
 from .task import Future, Task
 
 if TYPE_CHECKING:
@@ -223,7 +223,7 @@ class Executor:
             Exception: A callback raised it.
         """
         if not self._rclpy_scheduler.serves_endlessly:  # `spin` has done it once
-            rearm()
+            rearm_after_loops()
         self._spin_once(timeout_sec)
 
     def spin_until_future_complete(
@@ -256,7 +256,7 @@ class Executor:
         self, future: Future[Any], timeout_sec: float | None = None
     ) -> None:
         """Wait for one callback and run it, unless ``future`` is done before."""
-        rearm()
+        rearm_after_loops()
         with self._waking_when_done(future):
             self._spin_once(timeout_sec, future.done)
 

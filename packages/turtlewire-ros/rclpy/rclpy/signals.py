@@ -25,7 +25,7 @@ from typing import Any, Protocol
 from turtlewire.guarded import call_guarded
 from turtlewire.platforms import in_browser
 
-from ._execution.asyncio_loop import interrupted_loop
+from ._execution.asyncio_loop import interrupted_loop, running_loop
 from .impl import excepthooks
 from .impl.reexports import reexports
 
@@ -38,6 +38,7 @@ __all__ = [
     "install_signal_handlers",
     "listeners",
     "rearm",
+    "rearm_after_loops",
     "uninstall_signal_handlers",
 ]
 
@@ -240,6 +241,12 @@ def rearm() -> None:
     """
     if _watcher is not None and threading.current_thread() is threading.main_thread():
         _watcher.rearm()
+
+
+def rearm_after_loops() -> None:
+    """Do the same, but leave signals to a loop that runs: its program is asked again soon."""
+    if running_loop() is None:
+        rearm()
 
 
 def uninstall_signal_handlers() -> None:

@@ -220,6 +220,25 @@ def test_signals_within_a_loop_that_handles_them_reach_both(start):
     assert program.finish() == (0, "shut down\nhandled\n", "")
 
 
+def test_a_loop_that_calls_spin_once_keeps_its_signals(start):
+    program = start(
+        """
+        import asyncio, signal, rclpy
+        rclpy.init()
+        node = rclpy.create_node("tested")
+        async def main():
+            asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, print)
+            owner = signal.set_wakeup_fd(-1)
+            signal.set_wakeup_fd(owner)
+            rclpy.spin_once(node, timeout_sec=0)
+            print("up")
+            print(signal.set_wakeup_fd(owner) == owner)
+        asyncio.run(main())
+        """
+    )
+    assert program.finish() == (0, "True\n", "")
+
+
 def test_the_descriptor_of_a_loop_that_has_ended_is_not_restored(start):
     program = start(
         """
