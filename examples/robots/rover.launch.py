@@ -14,7 +14,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 def generate_launch_description() -> LaunchDescription:
     """Return the robot's program, and the robot_state_publisher with the robot's description."""
     here = ThisLaunchFileDir()
-    xacro = Command(["xacro '", PathJoinSubstitution([here, "rover.urdf.xacro"]), "'"])
+    xacro = Command(['xacro "', PathJoinSubstitution([here, "rover.urdf.xacro"]), '"'])
     return LaunchDescription(
         [
             Node(

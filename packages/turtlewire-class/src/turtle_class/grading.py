@@ -11,8 +11,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtle_class import ClassError
-from turtle_class.catalogue import exercises
+from turtle_class import ClassError, catalogue
 from turtle_class.runner import CheckResult, Outcome, Runner
 from turtle_class.seclusion import hidden
 from turtlewire.terminal.printable import printable
@@ -73,7 +72,7 @@ def students_in(folder: Path, reports: Path) -> list[Path]:
             f"{printable(str(folder))} holds no folders: it must have one for each student, with "
             "a folder for each exercise in it (ana/static/static_frame_broadcaster.py)"
         )
-    if {each.name for each in found} <= {exercise.name for exercise in exercises()}:
+    if {each.name for each in found} <= {exercise.name for exercise in catalogue.exercises()}:
         raise ClassError(
             f"{printable(str(folder))} holds exercises, not a folder for each student: "
             f"`turtlewire class check {shlex.quote(printable(str(folder)))}` checks them"

@@ -309,7 +309,14 @@ Velocity mean_velocity(const Pose& first, const Pose& last, const Vec3& fixed_po
 // begins 10 microseconds after it.
 Stamp interval_start(Stamp end, Stamp interval) {
   constexpr Stamp kFirst = 10'000;
-  return std::max(earlier(end, interval), end > kFirst ? kFirst : kLatest + 1);
+  const Stamp start = earlier(end, interval);
+  return end > kFirst ? std::max(start, kFirst) : start;
+}
+
+// An interval around `t` ends with the latest data, and one after it at `t`.
+Stamp interval_end(Stamp t, Stamp half, Stamp latest) {
+  if (t > latest) return t;
+  return elapsed(t, latest) < static_cast<std::uint64_t>(half) ? latest : t + half;
 }
 
 }  // namespace
@@ -331,8 +338,7 @@ std::optional<Request> lookup_velocities(SharedBuffer& shared, const VelocityReq
     Status status[4][kLanes];
     for (std::size_t i = 0; i < n; ++i) {
       times[i] = stamps[begin + i] != kLatest ? stamps[begin + i] : latest;
-      const Stamp half = request.interval / 2;
-      ends[i] = times[i] > earlier(latest, half) ? std::max(times[i], latest) : times[i] + half;
+      ends[i] = interval_end(times[i], request.interval / 2, latest);
       starts[i] = interval_start(ends[i], request.interval);
     }
     motion.block({ends, n}, last, status[0]);

@@ -172,8 +172,12 @@ Status Tree::climb(FrameId target, FrameId source, const Rule& rule, Pose* targe
                                           : inverse(down.top_from_start);
     *target_from_source = {p.translation, stored(p.rotation)};
   }
-  if (used != nullptr && met) leave_difference(*used, down_used);
-  if (used != nullptr && !met) *used = std::move(down_used);
+  if (used != nullptr) {
+    if (met)
+      leave_difference(*used, down_used);
+    else
+      *used = std::move(down_used);
+  }
   return Status::ok;
 }
 

@@ -16,7 +16,7 @@ def generate_launch_description() -> LaunchDescription:
             LaunchConfiguration("urdf_package_path"),
         ]
     )
-    description = ParameterValue(Command(["xacro '", path, "'"]), value_type=str)
+    description = ParameterValue(Command(['xacro "', path, '"']), value_type=str)
     return LaunchDescription(
         [
             DeclareLaunchArgument(
