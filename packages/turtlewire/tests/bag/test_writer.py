@@ -20,6 +20,7 @@ from tests.bags import START, contents, transform, write_bag
 import turtlewire
 from turtlewire import msg
 from turtlewire.bag import BagWriter, open_bag
+from turtlewire.bag.sqlite_writer import SqliteWriter
 from turtlewire.errors import BagError
 from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, QoS, Reliability
 
@@ -362,6 +363,22 @@ def test_a_bag_that_cannot_begin_another_file_is_closed(tmp_path, monkeypatch, s
     with open_bag(tmp_path / "made") as bag:
         assert [message.log_time_ns for message in bag] == [1]
         assert (len(bag), len(bag.metadata.paths)) == (1, 1)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
+def test_a_log_that_cannot_be_merged_is_an_error_in_any_folder(tmp_path):
+    folder = tmp_path / "blocked"  # contains "locked", as sqlite3's error about other readers does
+    folder.mkdir()
+    writer = SqliteWriter(str(folder / "a.db3"), "jazzy")
+    writer.write(writer.add_topic("/a", "std_msgs/msg/String", "", ""), 1, 1, bytes(300_000))
+    writer.flush()
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, limits[1]))
+    try:
+        with pytest.raises(OSError, match="disk"):
+            writer.close()
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")

@@ -155,13 +155,13 @@ class SqliteWriter:
         self._database.close()
 
     def _merge_log(self) -> None:
-        try:
-            with _as_os_error(self.path):
+        with _as_os_error(self.path):
+            try:
                 self._database.execute("PRAGMA journal_mode = DELETE")
-        except OSError as error:
-            # Another process is reading the file: the last reader that closes it merges the log.
-            if "locked" not in str(error):
-                raise
+            except sqlite3.OperationalError as error:
+                # Another process reads the file: the last reader that closes it merges the log.
+                if "locked" not in str(error):
+                    raise
 
 
 def merge_by_copy(path: str) -> None:
