@@ -381,6 +381,13 @@ def test_a_log_that_cannot_be_merged_is_an_error_in_any_folder(tmp_path):
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
 
 
+def test_a_closed_database_is_not_reported_as_a_fault_of_the_disk(tmp_path):
+    writer = SqliteWriter(str(tmp_path / "a.db3"), "jazzy")
+    writer.close()
+    with pytest.raises(sqlite3.ProgrammingError, match="closed database"):
+        writer.add_topic("/a", "std_msgs/msg/String", "", "")
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
 @pytest.mark.parametrize("way", ["mcap", "sqlite3", "sqlite3 that is read"])
 def test_without_room_to_compress_a_file_stays_as_it_is(tmp_path, way):

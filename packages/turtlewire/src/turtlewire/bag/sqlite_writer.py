@@ -34,10 +34,12 @@ _BATCH_BYTES = 768 * 1024
 
 @contextmanager
 def _as_os_error(path: str) -> Iterator[None]:
-    """Raise errors of sqlite3 as OSError."""
+    """Raise errors of the database as OSError, except errors of its caller."""
     try:
         yield
-    except sqlite3.Error as error:
+    except sqlite3.ProgrammingError:  # the database is closed, for example
+        raise
+    except sqlite3.DatabaseError as error:
         number = errno.ENOSPC if "full" in str(error) else errno.EIO
         raise OSError(number, str(error), path) from error
 
