@@ -42,7 +42,7 @@ def natively(path, topics=(1, 2), window=ALL):
     found = []
     with open(path, "rb") as file, closing(sqlite3.connect(path)) as database:
         database.text_factory = lambda name: name.decode("utf-8", "replace")
-        blocks = table_blocks(database, file, topics, window)
+        blocks = table_blocks(database, file, [], topics, window)
         while True:
             try:
                 found += next(blocks)
@@ -92,7 +92,7 @@ def test_many_rows_come_in_blocks(tmp_path):
     rows = [(k, 1, 10**18 + k, b"12345678") for k in range(1, 100_001)]
     path = write(tmp_path / "a.db3", rows, 512)  # a tree of four levels
     with open(path, "rb") as file, closing(sqlite3.connect(path)) as database:
-        blocks = list(table_blocks(database, file, (1,), ALL))
+        blocks = list(table_blocks(database, file, [], (1,), ALL))
     assert len(blocks) > 3
     assert [row for block in blocks for row in block] == [(row[2], row[3]) for row in rows]
 
@@ -149,6 +149,7 @@ def test_other_processes_cannot_change_the_file_meanwhile(tmp_path):
     with closing(SqliteFile(str(path))) as opened:
         blocks = opened.unordered_blocks((1,), *ALL)
         next(blocks)
+        assert len(list(opened.unordered_blocks((1,), *ALL))) > 1  # a second reader that ends
         refused = subprocess.run(delete, capture_output=True, text=True, check=False)
         assert "database is locked" in refused.stderr
         blocks.close()

@@ -47,13 +47,19 @@ _COLUMNS = [("id", "INTEGER", 1), ("topic_id", "INTEGER", 0), ("timestamp", "INT
 
 
 def table_blocks(
-    database: sqlite3.Connection, file: BinaryIO, topics: Collection[int], window: tuple[int, int]
+    database: sqlite3.Connection,
+    file: BinaryIO,
+    maps: list[mmap.mmap],
+    topics: Collection[int],
+    window: tuple[int, int],
 ) -> Generator[list[LoggedBytes], None, int | None]:
     """Yield the messages of topics in the order of the table, some at a time.
 
     Args:
-        database: The open database; while messages are read, other processes cannot change it.
-        file: The same file. Closing it would end the locks of the database.
+        database: The open database; while messages are read, other processes cannot change it. On
+            POSIX systems, they can if this process closes the file elsewhere: that ends its locks.
+        file: The same file; keep it open as long as the database.
+        maps: The former maps of the file, of which each has a descriptor that must stay open.
         topics: The ids of the topics.
         window: The first and the last log time.
 
@@ -70,7 +76,7 @@ def table_blocks(
     except (sqlite3.Error, UnicodeDecodeError):  # SQL will say what is damaged
         return BEFORE_ALL_IDS
     try:
-        table = root and _table(file, root)
+        table = root and _table(file, maps, root)
         if not table:
             return BEFORE_ALL_IDS
         is_more = True
@@ -95,12 +101,14 @@ def _root_page(database: sqlite3.Connection) -> int | None:
     return next((root for (root,) in database.execute(query) if isinstance(root, int)), None)
 
 
-def _table(file: BinaryIO, root: int) -> MessageTable | None:
+def _table(file: BinaryIO, maps: list[mmap.mmap], root: int) -> MessageTable | None:
     try:
         from turtlewire._native import MessageTable
     except ImportError:
         return None
-    pages = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)  # the table keeps it
+    if not maps or len(maps[-1]) != os.fstat(file.fileno()).st_size:
+        maps.append(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
+    pages = maps[-1]
     page = int.from_bytes(pages[16:18], "big")
     page = 1 << 16 if page == 1 else page
     try:
@@ -135,6 +143,7 @@ class SqliteFile:
             raise FileNotFoundError(f"{path} does not exist")
         # Open as long as the database: see `table_blocks`. A decompressed copy has no name by then.
         self._file = open(path, "rb")  # noqa: SIM115
+        self._maps: list[mmap.mmap] = []
         # A file with a write-ahead log beside it was not closed: sqlite must be allowed to replay
         # it.
         mode = "ro" if not os.path.exists(path + "-wal") else "rw"
@@ -170,6 +179,7 @@ class SqliteFile:
     def close(self) -> None:
         """Release the file."""
         self._database.close()
+        self._maps.clear()
         self._file.close()
 
     def _read_topics(self) -> dict[int, TopicInfo]:
@@ -318,7 +328,9 @@ class SqliteFile:
         window = _window(start_ns, end_ns)
         first, last = self.times()
         if start_ns <= first and last <= end_ns:  # the index is of no use
-            after = yield from table_blocks(self._database, self._file, topic_ids, window)
+            after = yield from table_blocks(
+                self._database, self._file, self._maps, topic_ids, window
+            )
             if after is None:
                 return
         else:
