@@ -92,7 +92,7 @@ def test_a_copy_that_a_killed_repair_left_is_replaced(tmp_path, storage):
     left_over = file.read_bytes()
     file.write_bytes(left_over[: len(left_over) // 2])
     before = numbers(path)
-    Path(f"{file}.part").write_bytes(left_over)
+    Path(f"{file}.repaired.part").write_bytes(left_over)
     assert 0 < len(before) < 1000
     assert reindex(path).message_count == len(before)
     assert numbers(path) == before

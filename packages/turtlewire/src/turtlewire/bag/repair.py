@@ -18,6 +18,7 @@ from turtlewire.bag.qos_yaml import profiles_to_text
 from turtlewire.bag.reader import Bag
 from turtlewire.bag.sqlite_storage import SqliteStorage
 from turtlewire.bag.sqlite_writer import SqliteWriter
+from turtlewire.bag.unfinished import new_file
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -47,20 +48,15 @@ def repaired_copy(file: StorageFile) -> str:
     Raises:
         OSError: The disk is full, for example; no copy is left.
     """
-    copy = f"{file.path}.part"
-    with suppress(FileNotFoundError):
-        os.remove(copy)
-    try:
-        if isinstance(file, McapStorage) and not file.file.closed_properly:
-            _copy_mcap(file.file, copy)
-        elif isinstance(file, SqliteStorage) and not file.file.is_whole:
-            _copy_sqlite(file.file, copy)
-        else:
-            return ""
-    except BaseException:
-        with suppress(FileNotFoundError):
-            os.remove(copy)
-        raise
+    copy = f"{file.path}.repaired"
+    if isinstance(file, McapStorage) and not file.file.closed_properly:
+        with new_file(copy) as path:
+            _copy_mcap(file.file, path)
+    elif isinstance(file, SqliteStorage) and not file.file.is_whole:
+        with new_file(copy) as path:
+            _copy_sqlite(file.file, path)
+    else:
+        return ""
     return copy
 
 

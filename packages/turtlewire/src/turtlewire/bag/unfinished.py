@@ -19,9 +19,12 @@ __all__ = ["new_file", "new_folder"]
 def new_file(path: str) -> Iterator[str]:
     """Yield the path of a file to make, which replaces ``path`` at the end.
 
-    If the block raises an exception, the file is removed, and ``path`` stays as it was.
+    If the block raises an exception, the file is removed, and ``path`` stays as it was. The file
+    of a killed process, which was to replace the same path, is removed first.
     """
     unfinished = f"{path}.part"
+    with suppress(FileNotFoundError):
+        os.remove(unfinished)
     try:
         yield unfinished
         os.replace(unfinished, path)
