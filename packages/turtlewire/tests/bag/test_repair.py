@@ -100,6 +100,18 @@ def test_a_copy_that_a_killed_repair_left_is_replaced(tmp_path, storage):
     assert {each.name for each in path.iterdir()} == names
 
 
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_a_copy_that_a_killed_recorder_left_is_removed(tmp_path, storage):
+    path = tmp_path / "bag"
+    file = written(path, storage, 10)
+    for ending in (".part", ".zstd.part"):
+        Path(f"{file}{ending}").write_bytes(b"unfinished")
+    other = path / "notes.part"
+    other.touch()
+    assert reindex(path).message_count == 10
+    assert set(path.iterdir()) == {file, path / "metadata.yaml", other}
+
+
 def test_a_file_instead_of_a_folder_is_refused_with_the_folder(tmp_path):
     file = written(tmp_path / "bag", "mcap", 10)
     with pytest.raises(BagError, match="is a file\n") as refused:

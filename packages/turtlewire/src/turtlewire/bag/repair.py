@@ -114,13 +114,21 @@ def _copy_sqlite(file: SqliteFile, path: str) -> None:
         writer.close()
 
 
+def _remove_unfinished(path: str) -> None:
+    """Remove what a killed process has left that copied or compressed this file."""
+    for ending in (".part", ".part-journal", ".zstd.part"):
+        with suppress(FileNotFoundError):
+            os.remove(path + ending)
+
+
 def reindex(
     path: str | os.PathLike[str], damaged: Callable[[str], None] | None = None
 ) -> BagMetadata:
     """Rebuild ``metadata.yaml`` of a folder, and repair the files that were not finished.
 
     A file that was cut off, by a crash or a full disk, is replaced by a whole one with all that can
-    be read of it. The old file keeps the name with ``.damaged`` appended.
+    be read of it. The old file keeps the name with ``.damaged`` appended. Copies that a killed
+    recorder did not finish are removed.
 
     Args:
         path: The folder.
@@ -138,6 +146,7 @@ def reindex(
     problems, copies = [], []
     with Bag(path, trust_metadata=False) as bag:
         for file in bag.files():
+            _remove_unfinished(file.path)
             if not file.path.endswith(".zstd"):
                 try:
                     copies.append((file.path, repaired_copy(file)))
