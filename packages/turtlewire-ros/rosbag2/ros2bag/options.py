@@ -112,7 +112,10 @@ def seconds(text: str) -> float:
     Raises:
         argparse.ArgumentTypeError: The text is not such a number.
     """
-    value = number(text)
+    try:
+        value = float(text)
+    except ValueError:  # with the text of argparse, because rosbag2's type is float
+        raise argparse.ArgumentTypeError(f"invalid float value: {text!r}") from None
     if not value <= _MOST_SECONDS:  # not `>`, so that NaN is rejected as well
         raise argparse.ArgumentTypeError(f"{text} is not in the valid range (<= {_MOST_SECONDS})")
     return value
