@@ -365,6 +365,19 @@ def test_a_bag_that_cannot_begin_another_file_is_closed(tmp_path, monkeypatch, s
         assert (len(bag), len(bag.metadata.paths)) == (1, 1)
 
 
+def test_reading_a_running_recording_keeps_the_lock_of_its_writer(tmp_path):
+    read = "import sys; from turtlewire.bag import open_bag; print(len(open_bag(sys.argv[1])))"
+    command = [sys.executable, "-c", read, str(tmp_path / "made")]
+    with BagWriter(tmp_path / "made", storage="sqlite3", ros_distro="jazzy") as writer:
+        writer.write("/tf", transform(1), 1)
+        writer.flush()
+        with open_bag(tmp_path / "made") as bag:
+            assert [message.log_time_ns for message in bag] == [1]
+        assert subprocess.check_output(command, text=True) == "1\n"
+        # Without the lock of the writer, the reader that closes the file last removes its log.
+        assert (tmp_path / "made" / "made_0.db3-wal").exists()
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
 def test_a_log_that_cannot_be_merged_is_an_error_in_any_folder(tmp_path):
     folder = tmp_path / "blocked"  # contains "locked", as sqlite3's error about other readers does

@@ -130,6 +130,8 @@ def open_storage(path: str, name: str = "") -> StorageFile:
         FileNotFoundError: The file does not exist.
         BagError: The file has none of these formats.
     """
+    if os.path.exists(path + "-wal") and os.path.getsize(path):
+        return SqliteStorage(path, name)  # closing the file would end the locks of our writer
     with open(path, "rb") as file:
         start = file.read(len(_SQLITE_MAGIC))
     if start.startswith(MAGIC):

@@ -141,12 +141,13 @@ class SqliteFile:
         self.problems: list[str] = []
         if not os.path.exists(path):
             raise FileNotFoundError(f"{path} does not exist")
-        # Open as long as the database: see `table_blocks`. A decompressed copy has no name by then.
-        self._file = open(path, "rb")  # noqa: SIM115
+        # A file with a write-ahead log next to it was not closed: sqlite must be allowed to replay
+        # it. This process may be writing it, and would lose its locks when it closes another
+        # descriptor. Other files stay open as long as the database: see `table_blocks`.
+        has_log = os.path.exists(path + "-wal")
+        mode = "rw" if has_log else "ro"
+        self._file = None if has_log else open(path, "rb")  # noqa: SIM115
         self._maps: list[mmap.mmap] = []
-        # A file with a write-ahead log beside it was not closed: sqlite must be allowed to replay
-        # it.
-        mode = "ro" if not os.path.exists(path + "-wal") else "rw"
         self._database = sqlite3.connect(
             f"file:{quote(os.path.abspath(path))}?mode={mode}", uri=True, check_same_thread=False
         )
@@ -180,7 +181,8 @@ class SqliteFile:
         """Release the file."""
         self._database.close()
         self._maps.clear()
-        self._file.close()
+        if self._file is not None:
+            self._file.close()
 
     def _read_topics(self) -> dict[int, TopicInfo]:
         return {
@@ -196,17 +198,18 @@ class SqliteFile:
 
     def _missing_bytes(self) -> int:
         """Return the number of bytes missing by the header; 0 while a log file is present."""
+        if self._file is None:
+            ((self._page_bytes,),) = self._tuples("PRAGMA page_size")
+            return 0
         self._file.seek(0)
         header = self._file.read(32)
         page = int.from_bytes(header[16:18], "big")
         self._page_bytes = 1 << 16 if page <= 1 else page
         told = self._page_bytes * int.from_bytes(header[28:32], "big")
-        if os.path.exists(self._file.name + "-wal"):
-            return 0
         return max(0, told - self._size())
 
-    def _size(self) -> int:
-        return os.fstat(self._file.fileno()).st_size
+    def _size(self) -> int:  # a decompressed copy is open, but has no name
+        return os.stat(self._file.fileno() if self._file else self.path).st_size
 
     def counts(self) -> dict[int, int]:
         """Return the number of readable messages by topic id, for which all rows are read once."""
@@ -327,7 +330,7 @@ class SqliteFile:
             return
         window = _window(start_ns, end_ns)
         first, last = self.times()
-        if start_ns <= first and last <= end_ns:  # the index is of no use
+        if self._file and start_ns <= first and last <= end_ns:  # the index is of no use
             after = yield from table_blocks(
                 self._database, self._file, self._maps, topic_ids, window
             )
