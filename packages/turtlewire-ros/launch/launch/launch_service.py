@@ -128,16 +128,29 @@ class LaunchService:
             self._interrupted = self._was_shut_down = False
             with self._signals_handled():
                 logging.log_launch_config(logger=self._logger)
-                try:
-                    await self._serve(shutdown_when_idle)
-                finally:
-                    # Stop everything that the launched processes have left behind; after a
-                    # cancellation of this task also the processes themselves.
-                    await self._run.stop_processes()
+                await self._serve_to_the_end(shutdown_when_idle)
             return self._return_code
         finally:
             self._run.end()
             self._running.release()
+
+    async def _serve_to_the_end(self, shutdown_when_idle: bool) -> None:
+        try:
+            try:
+                await self._serve(shutdown_when_idle)
+            except asyncio.CancelledError:
+                self._shut_down("the task of the launch was cancelled", due_to_sigint=False)
+                await self._serve(shutdown_when_idle)
+                raise
+            finally:
+                # Stop everything that the launched processes have left behind; after the third
+                # Ctrl-C or a second cancellation also the processes themselves.
+                await self._run.stop_processes()
+        except BaseException:
+            if not self._run.is_shutdown:
+                self._process_event(Shutdown(reason="interrupted", due_to_sigint=True))
+            await self._run.cancel_rest()
+            raise
 
     async def _serve(self, shutdown_when_idle: bool) -> None:
         while True:
@@ -169,7 +182,8 @@ class LaunchService:
             try:
                 for entity in _entities(handler.handle(event, self._context)):
                     self._visit(entity)
-            except Exception as error:  # noqa: BLE001  launch files may raise anything
+            # Launch files may raise anything. A cancellation of the task never comes here.
+            except (Exception, asyncio.CancelledError) as error:  # noqa: BLE001
                 self._fail(error)
             finally:
                 self._context.local_scopes.pop()
@@ -234,6 +248,7 @@ class LaunchService:
             if number == signal.SIGINT:
                 self._unseen_interrupts += 1
                 if self._unseen_interrupts == _PATIENCE:
+                    self._unseen_interrupts = 0
                     raise KeyboardInterrupt
             loop.call_soon_threadsafe(numbers[signal.Signals(number)])
 

@@ -120,6 +120,14 @@ class Run(Generic[C]):
         errors = [future.exception() for future in done if not future.cancelled()]
         return [error for error in errors if error is not None]
 
+    async def cancel_rest(self) -> None:
+        """Cancel the futures that are not done and drop the queued events."""
+        futures, self._futures = self._futures, set()
+        for future in futures:
+            future.cancel()
+        await asyncio.gather(*futures, return_exceptions=True)
+        self._events.clear()
+
     # processes
 
     def marked(self, environment: Mapping[str, str]) -> dict[str, str]:
@@ -131,7 +139,7 @@ class Run(Generic[C]):
 
     async def stop_processes(self) -> None:
         """Stop the remaining descendants of child processes; returns when they have ended."""
-        if self._processes is not None:
+        processes, self._processes = self._processes, None
+        if processes is not None:
             # In a thread: it blocks for up to five seconds, and output must still be read.
-            await asyncio.to_thread(self._processes.stop)
-            self._processes = None
+            await asyncio.to_thread(processes.stop)

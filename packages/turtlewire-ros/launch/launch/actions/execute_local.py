@@ -231,8 +231,8 @@ class ExecuteLocal(ProcessAction):
                 runs += 1
         finally:
             self.clean_up()
-            assert self._completed is not None
-            self._completed.set_result(None)
+            if self._completed is not None and not self._completed.done():
+                self._completed.set_result(None)
 
     async def _run_once(self, context: LaunchContext) -> bool:
         """Run the process and the handlers of its end; returns whether it could be started."""

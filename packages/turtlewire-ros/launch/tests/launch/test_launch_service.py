@@ -170,21 +170,37 @@ def test_two_errors_at_once_are_one_shutdown(launch):
     assert (outcome.status, outcome.messages) == (1, ["ends"])
 
 
-def test_a_cancelled_launch_stops_its_processes():
-    started, service = asyncio.Event(), LaunchService(noninteractive=True)
-    process = ExecuteProcess(cmd=["sleep", "100"])
-    handler = OnProcessStart(on_start=lambda *_: started.set())
-    service.include_launch_description(LaunchDescription([RegisterEventHandler(handler), process]))
+@pytest.mark.parametrize("times", [1, 2])
+def test_a_cancelled_launch_shuts_down_and_its_next_run_is_new(times):
+    service = LaunchService(noninteractive=True)
+    process = ExecuteProcess(cmd=["sleep", "100"], respawn=True)
+    starts, shutdowns = [], []
 
-    async def cancel():
-        running = asyncio.ensure_future(service.run_async())
-        await started.wait()
-        running.cancel()
+    def cancel(event, _context):
+        starts.append(event)
+        service.task.cancel()
+
+    def shut_down(event, _context):
+        shutdowns.append(event)
+        if times == 2:
+            service.task.cancel()
+
+    service.context.register_event_handler(OnProcessStart(on_start=cancel))
+    service.context.register_event_handler(OnShutdown(on_shutdown=shut_down, handle_once=True))
+    timer = TimerAction(period=100.0, actions=[])
+    service.include_launch_description(LaunchDescription([process, timer]))
+
+    async def run_twice():
         with pytest.raises(asyncio.CancelledError):
-            await running
-        return await process._process.wait(60)
+            await asyncio.ensure_future(service.run_async())
+        assert len(shutdowns) == 1
+        assert service.context.is_shutdown
+        assert process.get_asyncio_future().done()
+        assert timer.get_asyncio_future().done()
+        return await service.run_async()
 
-    assert asyncio.run(cancel()) == -signal.SIGTERM
+    assert asyncio.run(run_twice()) == 0
+    assert len(starts) == 1
 
 
 def test_the_next_run_forgets_a_failure():
@@ -207,17 +223,25 @@ def test_the_next_run_forgets_a_ctrl_c(caplog):
         assert caplog.messages[-1] == "user interrupted with ctrl-c (SIGINT)"
 
 
-def test_the_third_ctrl_c_ends_a_blocked_launch_and_its_processes():
+def test_the_third_ctrl_c_ends_a_blocked_launch_and_all_its_work():
     def block(*_):
         for _ in range(3):
             signal.raise_signal(signal.SIGINT)
 
     service, process = LaunchService(noninteractive=True), ExecuteProcess(cmd=["sleep", "100"])
-    handler = RegisterEventHandler(OnProcessStart(on_start=block))
-    service.include_launch_description(LaunchDescription([handler, process]))
+    timer, shutdowns = TimerAction(period=100.0, actions=[]), []
+    handlers = (
+        OnProcessStart(on_start=block),
+        OnShutdown(on_shutdown=lambda *_: shutdowns.append(1)),
+    )
+    service.include_launch_description(
+        LaunchDescription([*map(RegisterEventHandler, handlers), timer, process])
+    )
     with pytest.raises(KeyboardInterrupt):
         service.run()
     assert process.get_asyncio_future().done()
+    assert (service.context.is_shutdown, shutdowns) == (True, [1])
+    assert service.run() == 0
 
 
 def test_it_runs_in_another_thread_too():

@@ -1,5 +1,6 @@
 """Managed nodes, and timers of ROS."""
 
+import asyncio
 import sys
 from types import SimpleNamespace
 
@@ -29,6 +30,7 @@ from launch_ros.descriptions import ComposableLifecycleNode
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events import matches_node_name
 from launch_ros.events.lifecycle import ChangeState, StateTransition
+from launch_ros.ros_adapters import get_ros_adapter
 from lifecycle_msgs.msg import State, Transition, TransitionEvent
 
 MANAGED = """#!/usr/bin/env python3
@@ -290,6 +292,16 @@ def test_each_run_of_a_launch_has_its_own_node(caplog):
         assert service.run() == 0
     assert service.run() == 0
     assert caplog.messages.count("ticked") == 2
+
+
+def test_a_cancelled_launch_ends_its_node():
+    service = LaunchService(noninteractive=True)
+    cancel = OpaqueFunction(function=lambda _: service.task.cancel() and None)
+    timer = RosTimer(period=0.01, actions=[cancel])
+    service.include_launch_description(LaunchDescription([timer]))
+    with pytest.raises(asyncio.CancelledError):
+        service.run(shutdown_when_idle=False)
+    assert get_ros_adapter(service.context).has_ended
 
 
 def test_a_managed_node_does_not_start_during_the_shutdown(context, managed):
