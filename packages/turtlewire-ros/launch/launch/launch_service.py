@@ -59,8 +59,9 @@ class LaunchService:
         self._context.register_event_handler(OnIncludeLaunchDescription())
         self._context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
         self._running = threading.Lock()
+        # Acquired by the first of several reasons for a shutdown, from any thread.
+        self._may_shut_down = threading.Lock()
         self._interrupted = False
-        self._was_shut_down = False
         self._unseen_interrupts = 0
         self._return_code = 0
         self._task: asyncio.Task[int] | None = None
@@ -125,13 +126,14 @@ class LaunchService:
             self._run.begin()
             self._task = asyncio.current_task()
             self._return_code = self._unseen_interrupts = 0
-            self._interrupted = self._was_shut_down = False
+            self._interrupted = False
             with self._signals_handled():
                 logging.log_launch_config(logger=self._logger)
                 await self._serve_to_the_end(shutdown_when_idle)
             return self._return_code
         finally:
             self._run.end()
+            self._may_shut_down = threading.Lock()
             self._running.release()
 
     async def _serve_to_the_end(self, shutdown_when_idle: bool) -> None:
@@ -168,7 +170,9 @@ class LaunchService:
                 return
             else:
                 # As an event, so that handlers of the shutdown run as for any other reason.
-                await self._context.emit_event(Shutdown(reason="idle", due_to_sigint=False))
+                self._shut_down("idle", due_to_sigint=False)
+                # If another thread was first, its event may not be in the queue yet.
+                await self._run.wait()
 
     def _process_event(self, event: Event) -> None:
         self._logger.debug("processing event: '%s'", event)
@@ -213,8 +217,7 @@ class LaunchService:
         )
 
     def _shut_down(self, reason: str, *, due_to_sigint: bool) -> None:
-        if not (self._was_shut_down or self._run.is_shutdown):
-            self._was_shut_down = True
+        if not self._run.is_shutdown and self._may_shut_down.acquire(blocking=False):
             self.emit_event(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
 
     def _on_shutdown(self, _event: Event, _context: LaunchContext) -> None:

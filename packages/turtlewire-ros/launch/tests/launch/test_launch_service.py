@@ -170,6 +170,28 @@ def test_two_errors_at_once_are_one_shutdown(launch):
     assert (outcome.status, outcome.messages) == (1, ["ends"])
 
 
+def test_two_threads_at_once_shut_a_launch_down_once():
+    service, both, shutdowns = LaunchService(noninteractive=True), threading.Barrier(2), []
+
+    class RunThatBothThreadsSee:
+        @property
+        def is_shutdown(self):
+            both.wait(60)
+            return False
+
+    run, service._run = service._run, RunThatBothThreadsSee()
+    threads = [threading.Thread(target=service.shutdown) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+    service._run = run
+    handler = OnShutdown(on_shutdown=lambda *_: shutdowns.append(1))
+    service.context.register_event_handler(handler)
+    assert service.run() == 0
+    assert shutdowns == [1]
+
+
 @pytest.mark.parametrize("times", [1, 2])
 def test_a_cancelled_launch_shuts_down_and_its_next_run_is_new(times):
     service = LaunchService(noninteractive=True)
