@@ -399,7 +399,8 @@ class ExecuteLocal(ProcessAction):
             return
         if send_sigint:
             self._send_signal(signal.SIGINT)
-        end = escalate(self._process, self._name, self._timeouts, self._send_signal, self._logger)
+        timeouts = self._timeouts_now(context)
+        end = escalate(self._process, self._name, timeouts, self._send_signal, self._logger)
         context.add_completion_future(context.asyncio_loop.create_task(end))
 
     def _send_signal(self, number: signal.Signals) -> None:
@@ -415,12 +416,8 @@ class ExecuteLocal(ProcessAction):
         Returns:
             Whether the process is started again after its end.
         """
-        self._timeouts = [
-            perform_substitutions(context, timeout)
-            for timeout in (self._sigterm_timeout, self._sigkill_timeout)
-        ]
-        for timeout in self._timeouts:
-            float(timeout)  # an error during the shutdown would come too late
+        self._configurations = dict(context.launch_configurations)
+        self._timeouts = self._perform_timeouts(context)
         fallback = str(self._emulate_tty)
         self._emulates_tty = evaluate_condition_expression(
             context, [LaunchConfiguration("emulate_tty", default=fallback)]
@@ -430,6 +427,33 @@ class ExecuteLocal(ProcessAction):
         return evaluate_condition_expression(
             context, normalize_to_list_of_substitutions(self._respawn)
         )
+
+    def _perform_timeouts(self, context: LaunchContext) -> list[str]:
+        timeouts = [
+            perform_substitutions(context, timeout)
+            for timeout in (self._sigterm_timeout, self._sigkill_timeout)
+        ]
+        for timeout in timeouts:
+            float(timeout)
+        return timeouts
+
+    def _timeouts_now(self, context: LaunchContext) -> list[str]:
+        """Return the timeouts, which a launch file may have set after the start of the process.
+
+        Configurations of a group that has ended have the values of the visit.
+        """
+        scopes = context.configuration_scopes
+        scopes.push()
+        scopes.replace({**self._configurations, **context.launch_configurations})
+        try:
+            return self._perform_timeouts(context)
+        except Exception as error:  # noqa: BLE001  substitutions may raise anything
+            # Without timeouts, a process that ignores SIGINT would never end.
+            text = "%s. The timeouts of process[%s] are still '%s' and '%s' seconds."
+            self._logger.error(text, error, self._name, *self._timeouts)  # noqa: TRY400
+            return self._timeouts
+        finally:
+            scopes.pop()
 
 
 def _seconds(value: SomeSubstitutionsType | float | None, configuration: str) -> list[Substitution]:

@@ -264,6 +264,25 @@ def test_settings_of_a_group_count_for_its_processes(launch):
     assert (text.count("] terminal"), text.count("] pipe")) == (2, 1)
 
 
+@pytest.mark.parametrize(("later", "seconds"), [({}, "0.1"), ({"sigterm_timeout": "0.2"}, "0.2")])
+def test_timeouts_set_after_the_start_count_before_those_of_the_group(launch, later, seconds):
+    process = python(IGNORES_SIGINT)
+    group = GroupAction([SetLaunchConfiguration("sigterm_timeout", "0.1"), process])
+    settings = [SetLaunchConfiguration(name, value) for name, value in later.items()]
+    outcome = launch(when_ready(process, Shutdown()), group, *settings)
+    assert process.return_code == -signal.SIGTERM
+    assert f"failed to terminate '{seconds}' seconds after receiving 'SIGINT'" in outcome.text
+    assert dict(outcome.context.launch_configurations) == later
+
+
+def test_an_invalid_timeout_set_after_the_start_is_reported_and_ignored(launch):
+    process = python(IGNORES_SIGINT)
+    before, after = (SetLaunchConfiguration("sigterm_timeout", text) for text in ("0.1", "soon"))
+    outcome = launch(when_ready(process, Shutdown()), before, process, after)
+    assert process.return_code == -signal.SIGTERM
+    assert "could not convert string to float: 'soon'. The timeouts of" in outcome.text
+
+
 @pytest.mark.parametrize("timeout", ["soon", LaunchConfiguration("missing")])
 def test_a_process_without_valid_timeouts_does_not_start(launch, timeout):
     process = python(IGNORES_SIGINT, sigkill_timeout=timeout)
