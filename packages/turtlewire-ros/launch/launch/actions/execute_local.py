@@ -429,13 +429,22 @@ class ExecuteLocal(ProcessAction):
         )
 
     def _perform_timeouts(self, context: LaunchContext) -> list[str]:
-        timeouts = [
-            perform_substitutions(context, timeout)
-            for timeout in (self._sigterm_timeout, self._sigkill_timeout)
+        return [
+            self._perform_timeout(context, "sigterm_timeout", self._sigterm_timeout),
+            self._perform_timeout(context, "sigkill_timeout", self._sigkill_timeout),
         ]
-        for timeout in timeouts:
-            float(timeout)
-        return timeouts
+
+    def _perform_timeout(
+        self, context: LaunchContext, option: str, timeout: list[Substitution]
+    ) -> str:
+        text = perform_substitutions(context, timeout)
+        try:
+            float(text)
+        except ValueError:
+            raise ValueError(
+                f"process[{self._name}]: expected a number of seconds as {option}, got '{text}'"
+            ) from None
+        return text
 
     def _timeouts_now(self, context: LaunchContext) -> list[str]:
         """Return the timeouts, which a launch file may have set after the start of the process.
@@ -449,8 +458,7 @@ class ExecuteLocal(ProcessAction):
             return self._perform_timeouts(context)
         except Exception as error:  # noqa: BLE001  substitutions may raise anything
             # Without timeouts, a process that ignores SIGINT would never end.
-            text = "%s. The timeouts of process[%s] are still '%s' and '%s' seconds."
-            self._logger.error(text, error, self._name, *self._timeouts)  # noqa: TRY400
+            self._logger.error("%s; using %s", error, self._timeouts)  # noqa: TRY400
             return self._timeouts
         finally:
             scopes.pop()

@@ -280,13 +280,21 @@ def test_an_invalid_timeout_set_after_the_start_is_reported_and_ignored(launch):
     before, after = (SetLaunchConfiguration("sigterm_timeout", text) for text in ("0.1", "soon"))
     outcome = launch(when_ready(process, Shutdown()), before, process, after)
     assert process.return_code == -signal.SIGTERM
-    assert "could not convert string to float: 'soon'. The timeouts of" in outcome.text
+    assert "sigterm_timeout, got 'soon'; using ['0.1', '5']" in outcome.text
 
 
-@pytest.mark.parametrize("timeout", ["soon", LaunchConfiguration("missing")])
-def test_a_process_without_valid_timeouts_does_not_start(launch, timeout):
+@pytest.mark.parametrize(
+    ("timeout", "error"),
+    [
+        ("soon", r"process\[.*-\d+\]: expected a number of seconds as sigkill_timeout, got 'soon'"),
+        (LaunchConfiguration("missing"), "launch configuration 'missing' does not exist"),
+    ],
+)
+def test_a_process_without_valid_timeouts_does_not_start(launch, timeout, error):
     process = python(IGNORES_SIGINT, sigkill_timeout=timeout)
-    assert launch(when_ready(process, Shutdown()), process).status == 1
+    outcome = launch(when_ready(process, Shutdown()), process)
+    assert outcome.status == 1
+    assert re.fullmatch(error, outcome.error)
     assert process.process_details is None
 
 
