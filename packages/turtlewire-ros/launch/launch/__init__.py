@@ -19,6 +19,7 @@ module                             contents
 `descriptions`                     executables to run
 `frontend`                         the common parts of the XML and YAML parsers
 `child_process`                    a child process on the event loop
+`process_settings`                 timeouts, terminal and respawn of a process
 `process_output`                   output of a process: split into lines, logged
 `logging`                          the screen, ``launch.log`` and files of single processes
 `utilities`                        helpers of actions and substitutions

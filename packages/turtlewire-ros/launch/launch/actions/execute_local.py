@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import signal
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
@@ -10,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from launch import logging
 from launch.action import ProcessAction
 from launch.child_process import ChildProcess, escalate, stdin_is_terminal
-from launch.conditions import evaluate_condition_expression
 from launch.event_handler import EventHandler, entity_list
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
 from launch.events.process import (
@@ -24,8 +24,7 @@ from launch.events.process import (
     SignalProcess,
 )
 from launch.process_output import ProcessOutput
-from launch.substitutions import LaunchConfiguration
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.process_settings import ProcessSettings
 
 if TYPE_CHECKING:
     from launch.descriptions import Executable
@@ -85,22 +84,24 @@ class ExecuteLocal(ProcessAction):
         super().__init__(**kwargs)
         self._process_description = process_description
         self._shell = shell
-        self._sigterm_timeout = _seconds(sigterm_timeout, "sigterm_timeout")
-        self._sigkill_timeout = _seconds(sigkill_timeout, "sigkill_timeout")
-        self._emulate_tty = emulate_tty
+        self._settings = ProcessSettings(
+            sigterm_timeout=sigterm_timeout,
+            sigkill_timeout=sigkill_timeout,
+            emulate_tty=emulate_tty,
+            respawn=respawn,
+        )
         self._output = ProcessOutput(output, cached=cached_output)
         self._output_format = output_format
         self._log_cmd = log_cmd
         self._on_exit = on_exit
-        self._respawn = respawn
         self._respawn_delay = respawn_delay
         self._respawn_max_retries = respawn_max_retries
         self._process: ChildProcess | None = None
         self._process_details: dict[str, Any] | None = None
         self._return_code: int | None = None
         self._completed: asyncio.Future[None] | None = None
-        self._shutting_down: asyncio.Event | None = None
-        self._end_was_handled: asyncio.Event | None = None
+        self._shutting_down = asyncio.Event()
+        self._end_was_handled = asyncio.Event()
 
     @property
     def process_description(self) -> Executable:
@@ -115,7 +116,7 @@ class ExecuteLocal(ProcessAction):
     @property
     def emulate_tty(self) -> bool:
         """True if the process finds a terminal at its output."""
-        return self._emulate_tty
+        return self._settings.emulate_tty
 
     @property
     def output(self) -> Any:
@@ -140,12 +141,12 @@ class ExecuteLocal(ProcessAction):
     @property
     def sigterm_timeout(self) -> list[Substitution]:
         """Seconds between SIGINT and SIGTERM, as text."""
-        return self._sigterm_timeout
+        return self._settings.sigterm_timeout
 
     @property
     def sigkill_timeout(self) -> list[Substitution]:
         """Seconds between SIGTERM and SIGKILL, as text."""
-        return self._sigkill_timeout
+        return self._settings.sigkill_timeout
 
     def get_stdout(self) -> bytes:
         """The stdout of the process; kept only with ``cached_output``."""
@@ -187,7 +188,7 @@ class ExecuteLocal(ProcessAction):
             return None
         try:
             self.prepare(context)
-            respawn = self._perform_settings(context)
+            self._settings.perform(context, self._name)
         except BaseException:
             self.clean_up()
             raise
@@ -197,11 +198,9 @@ class ExecuteLocal(ProcessAction):
             context, self._name, lambda line: self._output_format.format(line=line, this=self)
         )
         self._completed = context.asyncio_loop.create_future()
-        self._shutting_down = asyncio.Event()
-        self._end_was_handled = asyncio.Event()
         # Before the start, because the first event must find them.
         self._register_handlers(context, self._completed)
-        context.add_completion_future(context.asyncio_loop.create_task(self._run(context, respawn)))
+        context.add_completion_future(context.asyncio_loop.create_task(self._run(context)))
         return None
 
     def prepare(self, context: LaunchContext) -> None:
@@ -224,10 +223,10 @@ class ExecuteLocal(ProcessAction):
         assert self._process_description.final_name is not None
         return self._process_description.final_name
 
-    async def _run(self, context: LaunchContext, respawn: bool) -> None:
+    async def _run(self, context: LaunchContext) -> None:
         try:
             runs = 0
-            while await self._run_once(context) and respawn and await self._respawns(runs):
+            while await self._run_once(context) and await self._respawns(runs):
                 runs += 1
         finally:
             self.clean_up()
@@ -236,8 +235,6 @@ class ExecuteLocal(ProcessAction):
 
     async def _run_once(self, context: LaunchContext) -> bool:
         """Run the process and the handlers of its end; returns whether it could be started."""
-        assert self._shutting_down is not None
-        assert self._end_was_handled is not None
         self._end_was_handled.clear()
         try:
             self._process = process = await self._start(context)
@@ -257,8 +254,7 @@ class ExecuteLocal(ProcessAction):
         await context.emit_event(
             ProcessExited(action=self, returncode=self._return_code or 0, **self._event_details())
         )
-        # A respawn must not overtake the last lines of this run, nor a handler that ends the
-        # launch.
+        # A respawn must not overtake the last lines of this run, nor a handler that shuts down.
         await self._end_was_handled.wait()
         return True
 
@@ -272,7 +268,7 @@ class ExecuteLocal(ProcessAction):
                 " ".join(description.final_cmd),
                 description.final_cwd,
             )
-        emulate_tty = self._emulates_tty
+        emulate_tty = self._settings.emulates_tty
         return await ChildProcess.start(
             self.command(),
             cwd=description.final_cwd,
@@ -297,15 +293,11 @@ class ExecuteLocal(ProcessAction):
 
     async def _respawns(self, runs: int) -> bool:
         """Wait until the next start is due; return False without a further start."""
-        assert self._shutting_down is not None
-        if 0 <= self._respawn_max_retries <= runs:
+        if not self._settings.respawns or 0 <= self._respawn_max_retries <= runs:
             return False
-        try:
+        with contextlib.suppress(asyncio.TimeoutError):
             await asyncio.wait_for(self._shutting_down.wait(), self._respawn_delay or 0.0)
-        except asyncio.TimeoutError:
-            # The shutdown may have come at the same moment.
-            return not self._shutting_down.is_set()
-        return False
+        return not self._shutting_down.is_set()
 
     # events
 
@@ -366,7 +358,6 @@ class ExecuteLocal(ProcessAction):
 
     def _show_end(self, event: ProcessExited, _context: LaunchContext) -> None:
         """Show the last line, even if it is not complete, and how the process ended."""
-        assert self._end_was_handled is not None
         self._end_was_handled.set()
         self._output.show_rest()
         if event.returncode == 0:
@@ -388,20 +379,18 @@ class ExecuteLocal(ProcessAction):
         )
 
     def _shutdown_process(self, context: LaunchContext, *, send_sigint: bool) -> None:
-        assert self._shutting_down is not None
         if not self._shutting_down.is_set():
             self._shutting_down.set()
             self._stop(context, send_sigint=send_sigint)
 
     def _stop(self, context: LaunchContext, *, send_sigint: bool) -> None:
-        assert context.asyncio_loop is not None
         if self._process is None or not self._process.running:
             return
         if send_sigint:
             self._send_signal(signal.SIGINT)
-        timeouts = self._timeouts_now(context)
+        timeouts = self._settings.timeouts(context, self._logger)
         end = escalate(self._process, self._name, timeouts, self._send_signal, self._logger)
-        context.add_completion_future(context.asyncio_loop.create_task(end))
+        context.add_completion_future(asyncio.ensure_future(end))
 
     def _send_signal(self, number: signal.Signals) -> None:
         process = self._process
@@ -409,65 +398,3 @@ class ExecuteLocal(ProcessAction):
             return
         self._logger.info("sending signal '%s' to process[%s]", number.name, self._name)
         process.send_signal(number)
-
-    def _perform_settings(self, context: LaunchContext) -> bool:
-        """Perform the substitutions of the settings, in the scope of the visit.
-
-        Returns:
-            Whether the process is started again after its end.
-        """
-        self._configurations = dict(context.launch_configurations)
-        self._timeouts = self._perform_timeouts(context)
-        fallback = str(self._emulate_tty)
-        self._emulates_tty = evaluate_condition_expression(
-            context, [LaunchConfiguration("emulate_tty", default=fallback)]
-        )
-        if isinstance(self._respawn, bool):
-            return self._respawn
-        return evaluate_condition_expression(
-            context, normalize_to_list_of_substitutions(self._respawn)
-        )
-
-    def _perform_timeouts(self, context: LaunchContext) -> list[str]:
-        return [
-            self._perform_timeout(context, "sigterm_timeout", self._sigterm_timeout),
-            self._perform_timeout(context, "sigkill_timeout", self._sigkill_timeout),
-        ]
-
-    def _perform_timeout(
-        self, context: LaunchContext, option: str, timeout: list[Substitution]
-    ) -> str:
-        text = perform_substitutions(context, timeout)
-        try:
-            float(text)
-        except ValueError:
-            raise ValueError(
-                f"process[{self._name}]: expected a number of seconds as {option}, got '{text}'"
-            ) from None
-        return text
-
-    def _timeouts_now(self, context: LaunchContext) -> list[str]:
-        """Return the timeouts, which a launch file may have set after the start of the process.
-
-        Configurations of a group that has ended have the values of the visit.
-        """
-        scopes = context.configuration_scopes
-        scopes.push()
-        scopes.replace({**self._configurations, **context.launch_configurations})
-        try:
-            return self._perform_timeouts(context)
-        except Exception as error:  # noqa: BLE001  substitutions may raise anything
-            # Without timeouts, a process that ignores SIGINT would never end.
-            self._logger.error("%s; using %s", error, self._timeouts)  # noqa: TRY400
-            return self._timeouts
-        finally:
-            scopes.pop()
-
-
-def _seconds(value: SomeSubstitutionsType | float | None, configuration: str) -> list[Substitution]:
-    if value is None:
-        # ROS 2's default in seconds.
-        return normalize_to_list_of_substitutions(LaunchConfiguration(configuration, default=5))
-    return normalize_to_list_of_substitutions(
-        str(value) if isinstance(value, (int, float)) else value
-    )

@@ -309,7 +309,7 @@ def test_shutdown_escalates(launch):
         python(IGNORES_SIGINT, sigterm_timeout=0.05),
         python(IGNORES_BOTH, sigterm_timeout="0.05"),
     )
-    deaf._sigkill_timeout = stubborn._sigterm_timeout
+    deaf._settings.sigkill_timeout = stubborn.sigterm_timeout
     ready = set()
 
     def answer(event):
