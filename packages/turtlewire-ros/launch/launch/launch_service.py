@@ -149,9 +149,11 @@ class LaunchService:
                 # Ctrl-C or a second cancellation also the processes themselves.
                 await self._run.stop_processes()
         except BaseException:
-            if not self._run.is_shutdown:
-                self._process_event(Shutdown(reason="interrupted", due_to_sigint=True))
-            await self._run.cancel_rest()
+            try:
+                if not self._run.is_shutdown:
+                    self._process_event(Shutdown(reason="interrupted", due_to_sigint=True))
+            finally:
+                await self._run.cancel_rest()
             raise
 
     async def _serve(self, shutdown_when_idle: bool) -> None:
@@ -251,7 +253,6 @@ class LaunchService:
             if number == signal.SIGINT:
                 self._unseen_interrupts += 1
                 if self._unseen_interrupts == _PATIENCE:
-                    self._unseen_interrupts = 0
                     raise KeyboardInterrupt
             loop.call_soon_threadsafe(numbers[signal.Signals(number)])
 

@@ -170,6 +170,15 @@ def test_two_errors_at_once_are_one_shutdown(launch):
     assert (outcome.status, outcome.messages) == (1, ["ends"])
 
 
+def test_a_handler_that_raises_a_cancellation_ends_the_launch_as_others(launch):
+    def fail(_context):
+        raise asyncio.CancelledError("boom")
+
+    process = ExecuteProcess(cmd=["sleep", "100"])
+    outcome = launch(process, OpaqueFunction(function=fail))
+    assert (outcome.status, outcome.error, process.return_code) == (1, "boom", -2)
+
+
 def test_two_threads_at_once_shut_a_launch_down_once():
     service, both, shutdowns = LaunchService(noninteractive=True), threading.Barrier(2), []
 
@@ -245,24 +254,31 @@ def test_the_next_run_forgets_a_ctrl_c(caplog):
         assert caplog.messages[-1] == "user interrupted with ctrl-c (SIGINT)"
 
 
-def test_the_third_ctrl_c_ends_a_blocked_launch_and_all_its_work():
+@pytest.mark.parametrize("blocks_again", [False, True])
+def test_the_third_ctrl_c_ends_a_blocked_launch_and_all_its_work(blocks_again):
     def block(*_):
         for _ in range(3):
             signal.raise_signal(signal.SIGINT)
 
     service, process = LaunchService(noninteractive=True), ExecuteProcess(cmd=["sleep", "100"])
     timer, shutdowns = TimerAction(period=100.0, actions=[]), []
-    handlers = (
+
+    def shut_down(*_):
+        shutdowns.append(1)
+        if blocks_again:
+            block()
+
+    for handler in (
         OnProcessStart(on_start=block),
-        OnShutdown(on_shutdown=lambda *_: shutdowns.append(1)),
-    )
-    service.include_launch_description(
-        LaunchDescription([*map(RegisterEventHandler, handlers), timer, process])
-    )
+        OnShutdown(on_shutdown=shut_down, handle_once=True),
+    ):
+        service.context.register_event_handler(handler)
+    service.include_launch_description(LaunchDescription([timer, process]))
     with pytest.raises(KeyboardInterrupt):
         service.run()
     assert process.get_asyncio_future().done()
-    assert (service.context.is_shutdown, shutdowns) == (True, [1])
+    assert timer.get_asyncio_future().done()
+    assert shutdowns == [1]
     assert service.run() == 0
 
 
