@@ -172,9 +172,10 @@ class LaunchService:
                 return
             else:
                 # As an event, so that handlers of the shutdown run as for any other reason.
-                self._shut_down("idle", due_to_sigint=False)
-                # If another thread was first, its event may not be in the queue yet.
-                await self._run.wait()
+                if self._may_shut_down.acquire(blocking=False):
+                    await self._context.emit_event(Shutdown(reason="idle", due_to_sigint=False))
+                else:  # the event of another thread may not be in the queue yet
+                    await self._run.wait()
 
     def _process_event(self, event: Event) -> None:
         self._logger.debug("processing event: '%s'", event)
