@@ -199,7 +199,7 @@ class ExecuteLocal(ProcessAction):
         )
         self._completed = context.asyncio_loop.create_future()
         # Before the start, because the first event must find them.
-        self._register_handlers(context, self._completed)
+        self._register_handlers(context)
         context.add_completion_future(context.asyncio_loop.create_task(self._run(context)))
         return None
 
@@ -301,14 +301,11 @@ class ExecuteLocal(ProcessAction):
 
     # events
 
-    def _register_handlers(self, context: LaunchContext, end: asyncio.Future[None]) -> None:
-        """Register for all events of the process, until its end.
-
-        The last one gets an event first.
-        """
+    def _register_handlers(self, context: LaunchContext) -> None:
+        """Register for all events of the process; the last one gets an event first."""
         on_exit = [] if self._on_exit is None else self._on_exit
         # The last lines are shown before the user's `on_exit` is visited.
-        handlers = (
+        for handler in (
             OnProcessExit(target_action=self, on_exit=on_exit),
             OnProcessExit(target_action=self, on_exit=self._show_end),
             OnProcessIO(
@@ -319,15 +316,8 @@ class ExecuteLocal(ProcessAction):
             ),
             OnShutdown(on_shutdown=self._on_shutdown),
             EventHandler(matcher=self._is_for_me, entities=self._on_targeted_event),
-        )
-        for handler in handlers:
+        ):
             context.register_event_handler(handler)
-
-        def forget(_: object) -> None:
-            for handler in handlers:
-                context.unregister_event_handler(handler)
-
-        end.add_done_callback(forget)
 
     def _is_for_me(self, event: Event) -> bool:
         return isinstance(event, ProcessTargetedEvent) and event.process_matcher(self)

@@ -244,13 +244,6 @@ def test_a_process_may_find_a_terminal(launch):
     )  # the test has no keyboard
 
 
-def test_a_process_that_has_ended_handles_no_events(launch):
-    process = python("pass")
-    context = launch(process).context
-    event = ProcessStdin(text=b"", action=process, **process.process_details)
-    assert not context.would_handle_event(event)
-
-
 def test_settings_of_a_group_count_for_its_processes(launch):
     code = "import sys; print('terminal' if sys.stdout.isatty() else 'pipe')"
     again = LaunchConfiguration("again", default="false")
