@@ -170,12 +170,11 @@ class LaunchService:
                 await self._run.wait()
             elif self._run.is_shutdown:
                 return
-            else:
-                # As an event, so that handlers of the shutdown run as for any other reason.
-                if self._may_shut_down.acquire(blocking=False):
-                    await self._context.emit_event(Shutdown(reason="idle", due_to_sigint=False))
-                else:  # the event of another thread may not be in the queue yet
-                    await self._run.wait()
+            # As an event, so that handlers of the shutdown run as for any other reason.
+            elif self._may_shut_down.acquire(blocking=False):
+                await self._context.emit_event(Shutdown(reason="idle", due_to_sigint=False))
+            else:  # the event of another thread may not be in the queue yet
+                await self._run.wait()
 
     def _process_event(self, event: Event) -> None:
         self._logger.debug("processing event: '%s'", event)
