@@ -143,8 +143,10 @@ class Endpoint(EventSource, Entity):
             self._event(kind).add(translated)
 
     def close(self) -> None:
-        if self.is_inherited:
-            return
+        if not self.is_inherited:
+            self._close()
+
+    def _close(self) -> None:
         with self._lock:
             if self._closed:
                 return

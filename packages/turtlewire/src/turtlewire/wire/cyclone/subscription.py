@@ -226,12 +226,10 @@ class CycloneSubscription(Endpoint, Subscription):
     def publisher_count(self) -> int:
         return max(0, int(dds.matched_publications(self.handle, None, 0)))
 
-    def close(self) -> None:
-        if self.is_inherited:
-            return
+    def _close(self) -> None:
         for wait_set in list(self.wait_sets):
             wait_set.detach(self)
-        super().close()
+        super()._close()
 
     def _delete(self) -> None:
         # An inlet must end after the reader that calls it, so the reader is deleted now.

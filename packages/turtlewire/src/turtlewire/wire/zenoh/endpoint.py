@@ -100,14 +100,11 @@ class ZenohEndpoint(EventSource, Entity):
         if self.partners.pop(partner.text, None) is not None:
             self._report_matched(-1, len(self.partners))
 
-    @property
-    def is_inherited(self) -> bool:
-        """True in a forked child, where locks may be held for good; see `Entity.close`."""
-        return self._core.process != os.getpid()
-
     def close(self) -> None:
-        if self.is_inherited:
-            return
+        if self._core.process == os.getpid():  # see `Entity.close`
+            self._close()
+
+    def _close(self) -> None:
         with self._lock:
             if self._closed:
                 return

@@ -158,10 +158,8 @@ class ZenohSubscription(ZenohEndpoint, Queued, Subscription):
     def publisher_count(self) -> int:
         return len(self.partners)
 
-    def close(self) -> None:
-        if self.is_inherited:
-            return
-        super().close()
+    def _close(self) -> None:
+        super()._close()
         self.leave_watchers()
         with self._lock:
             self._queue.clear()
@@ -285,9 +283,7 @@ class ZenohSinkSubscription(ZenohSubscription):
                 self._is_left = True
         return messages
 
-    def close(self) -> None:
-        if self.is_inherited:
-            return
-        super().close()
+    def _close(self) -> None:
+        super()._close()
         with self._receiving:  # the sink gets nothing more when this returns
             return

@@ -58,10 +58,8 @@ class _QueuedEndpoint(ZenohEndpoint, Queued):
             self._queue.popleft() if len(self._queue) > (self._limit or len(self._queue)) else None
         )
 
-    def close(self) -> None:
-        if self.is_inherited:
-            return
-        super().close()
+    def _close(self) -> None:
+        super()._close()
         self.leave_watchers()
         with self._lock:
             self._queue.clear()
@@ -183,10 +181,8 @@ class ZenohService(_QueuedEndpoint, Service):
         if unanswered:  # on the reader thread, because the lock is held, and it calls Zenoh
             self._core.reader.submit(lambda: self._forget(unanswered))
 
-    def close(self) -> None:
-        if self.is_inherited:
-            return
-        super().close()
+    def _close(self) -> None:
+        super()._close()
         self._forget(list(self._queries))
 
     def _forget(self, requests: list[RequestId]) -> None:
