@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from turtlewire.bag import open_bag
-from turtlewire.bag.sqlite_reader import BEFORE_ALL_IDS, SqliteFile, table_blocks
+from turtlewire.bag.sqlite_reader import SqliteFile
+from turtlewire.bag.sqlite_table import BEFORE_ALL_IDS, DatabaseFile, table_blocks
 from turtlewire.errors import BagError
 
 pytest.importorskip("turtlewire._native", reason="the plain core reads by SQL")
@@ -40,9 +41,9 @@ def write(path, rows, page_bytes=4096, tables=TABLES):
 def natively(path, topics=(1, 2), window=ALL):
     """Return the rows of the native reader, and the id after which SQL has to read."""
     found = []
-    with open(path, "rb") as file, closing(sqlite3.connect(path)) as database:
+    with closing(DatabaseFile(path)) as file, closing(sqlite3.connect(path)) as database:
         database.text_factory = lambda name: name.decode("utf-8", "replace")
-        blocks = table_blocks(database, file, [], topics, window)
+        blocks = table_blocks(database, file, topics, window)
         while True:
             try:
                 found += next(blocks)
@@ -91,8 +92,8 @@ def test_the_topics_and_the_window_are_inclusive(tmp_path):
 def test_many_rows_come_in_blocks(tmp_path):
     rows = [(k, 1, 10**18 + k, b"12345678") for k in range(1, 100_001)]
     path = write(tmp_path / "a.db3", rows, 512)  # a tree of four levels
-    with open(path, "rb") as file, closing(sqlite3.connect(path)) as database:
-        blocks = list(table_blocks(database, file, [], (1,), ALL))
+    with closing(DatabaseFile(path)) as file, closing(sqlite3.connect(path)) as database:
+        blocks = list(table_blocks(database, file, (1,), ALL))
     assert len(blocks) > 3
     assert [row for block in blocks for row in block] == [(row[2], row[3]) for row in rows]
 

@@ -46,7 +46,8 @@ module              contents
 `record_messages`   the messages among the records of a chunk
 `mcap_records`      the records of MCAP as bytes and objects
 `mcap_writer`       writes MCAP files
-`sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4; the rows of its messages, natively
+`sqlite_reader`     rosbag2's sqlite3 schema, versions 1 to 4
+`sqlite_table`      the rows of its messages, natively
 `ros1_storage`      that interface for bags of ROS 1; converts their messages to CDR
 `ros1_file`         the format of ROS 1's bags: connections, chunks, bags without an end
 `ros1_steps`        the steps of that conversion, for the compiled core

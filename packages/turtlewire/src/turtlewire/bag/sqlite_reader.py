@@ -4,119 +4,34 @@ Versions differ in missing tables: without the table ``schema`` it is version 2 
 column ``offered_qos_profiles`` version 1; definitions and embedded metadata exist since version 4.
 
 In a truncated file, the rows before the first lost one are read: they are stored in the order in
-which they were written, and sqlite3 can iterate over them without the index. The compiled core
-reads the pages of the table of messages: the module sqlite3 needs more time for a row than
-decoding its message takes.
+which they were written, and sqlite3 can iterate over them without the index.
 """
 
 from __future__ import annotations
 
-import mmap
 import os
 import sqlite3
 from collections import Counter
-from collections.abc import Collection, Generator, Iterator
+from collections.abc import Collection, Iterator
 from contextlib import suppress
 from itertools import islice
-from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 from urllib.parse import quote
 
 from turtlewire.bag.metadata import TopicInfo, full_type_name, parse_metadata
 from turtlewire.bag.qos_yaml import load_yaml, profiles_from_yaml
+from turtlewire.bag.sqlite_table import BEFORE_ALL_IDS, BLOCK_BYTES, DatabaseFile, table_blocks
 from turtlewire.errors import BagError
-from turtlewire.platforms import asked_core
 
 if TYPE_CHECKING:
-    from turtlewire._native import MessageTable
     from turtlewire.bag.metadata import BagMetadata
     from turtlewire.bag.record_messages import LoggedBytes, RawMessage
 
-__all__ = [
-    "BEFORE_ALL_IDS",
-    "SqliteFile",
-    "table_blocks",
-]
+__all__ = ["SqliteFile"]
 
-BEFORE_ALL_IDS = -(1 << 63)
-
-#: Messages in the first block, the most in a later one, and the bytes that one should have.
+#: Messages in the first block, and the most in a later one.
 _FIRST_BLOCK = 64
 _LARGEST_BLOCK = 512
-_BLOCK_BYTES = 1 << 18
-_COLUMNS = [("id", "INTEGER", 1), ("topic_id", "INTEGER", 0), ("timestamp", "INTEGER", 0)]
-
-
-def table_blocks(
-    database: sqlite3.Connection,
-    file: BinaryIO,
-    maps: list[mmap.mmap],
-    topics: Collection[int],
-    window: tuple[int, int],
-) -> Generator[list[LoggedBytes], None, int | None]:
-    """Yield the messages of topics in the order of the table, some at a time.
-
-    Args:
-        database: The open database; while messages are read, other processes cannot change it. On
-            POSIX systems, they can if this process closes the file elsewhere: that ends its locks.
-        file: The same file; keep it open as long as the database.
-        maps: The former maps of the file, of which each has a descriptor that must stay open.
-        topics: The ids of the topics.
-        window: The first and the last log time.
-
-    Returns:
-        None if all messages were read. Otherwise the id of the last row that was read: the rows
-        after it are for SQL, because they are damaged or not in rosbag2's form.
-    """
-    if asked_core() == "python" or os.path.exists(file.name + "-wal"):
-        return BEFORE_ALL_IDS
-    guard = database.cursor()
-    try:
-        root = _root_page(database)
-        guard.execute("SELECT id FROM messages").fetchone()  # an open statement locks the file
-    except (sqlite3.Error, UnicodeDecodeError):  # SQL will say what is damaged
-        return BEFORE_ALL_IDS
-    try:
-        table = root and _table(file, maps, root)
-        if not table:
-            return BEFORE_ALL_IDS
-        is_more = True
-        while is_more:
-            block: list[LoggedBytes] = []
-            is_more = table.read(topics, *window, _BLOCK_BYTES, block)
-            yield block
-        return None if table.is_whole else table.last_id
-    finally:
-        guard.close()
-
-
-def _root_page(database: sqlite3.Connection) -> int | None:
-    """Return the first page of the table; None if its columns are not rosbag2's."""
-    columns = [
-        (name, kind.upper(), key)
-        for _, name, kind, _, _, key in database.execute("PRAGMA table_info(messages)")
-    ]
-    if columns != [*_COLUMNS, ("data", "BLOB", 0)]:
-        return None
-    query = "SELECT rootpage FROM sqlite_master WHERE type = 'table' AND name = 'messages'"
-    return next((root for (root,) in database.execute(query) if isinstance(root, int)), None)
-
-
-def _table(file: BinaryIO, maps: list[mmap.mmap], root: int) -> MessageTable | None:
-    try:
-        from turtlewire._native import MessageTable
-    except ImportError:
-        return None
-    if not maps or len(maps[-1]) != os.fstat(file.fileno()).st_size:
-        maps.append(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
-    pages = maps[-1]
-    page = int.from_bytes(pages[16:18], "big")
-    page = 1 << 16 if page == 1 else page
-    try:
-        return MessageTable(pages, page, page - pages[20], root)
-    except ValueError:  # of a damaged header
-        return None
-
-
 _Row = TypeVar("_Row", bound="tuple[Any, ...]")
 
 #: What the sqlite3 module raises for damaged files: broken table names are not UTF-8.
@@ -142,12 +57,10 @@ class SqliteFile:
         if not os.path.exists(path):
             raise FileNotFoundError(f"{path} does not exist")
         # A file with a write-ahead log next to it was not closed: sqlite must be allowed to replay
-        # it. This process may be writing it, and would lose its locks when it closes another
-        # descriptor. Other files stay open as long as the database: see `table_blocks`.
+        # it. This process may be writing it, and must not close another descriptor of it.
         has_log = os.path.exists(path + "-wal")
         mode = "rw" if has_log else "ro"
-        self._file = None if has_log else open(path, "rb")  # noqa: SIM115
-        self._maps: list[mmap.mmap] = []
+        self._file = None if has_log else DatabaseFile(path)
         self._database = sqlite3.connect(
             f"file:{quote(os.path.abspath(path))}?mode={mode}", uri=True, check_same_thread=False
         )
@@ -180,7 +93,6 @@ class SqliteFile:
     def close(self) -> None:
         """Release the file."""
         self._database.close()
-        self._maps.clear()
         if self._file is not None:
             self._file.close()
 
@@ -201,15 +113,14 @@ class SqliteFile:
         if self._file is None:
             ((self._page_bytes,),) = self._tuples("PRAGMA page_size")
             return 0
-        self._file.seek(0)
-        header = self._file.read(32)
+        header = self._file.header()
         page = int.from_bytes(header[16:18], "big")
         self._page_bytes = 1 << 16 if page <= 1 else page
         told = self._page_bytes * int.from_bytes(header[28:32], "big")
         return max(0, told - self._size())
 
-    def _size(self) -> int:  # a decompressed copy is open, but has no name
-        return os.stat(self._file.fileno() if self._file else self.path).st_size
+    def _size(self) -> int:
+        return os.path.getsize(self.path) if self._file is None else self._file.size
 
     def counts(self) -> dict[int, int]:
         """Return the number of readable messages by topic id, for which all rows are read once."""
@@ -331,9 +242,7 @@ class SqliteFile:
         window = _window(start_ns, end_ns)
         first, last = self.times()
         if self._file and start_ns <= first and last <= end_ns:  # the index is of no use
-            after = yield from table_blocks(
-                self._database, self._file, self._maps, topic_ids, window
-            )
+            after = yield from table_blocks(self._database, self._file, topic_ids, window)
             if after is None:
                 return
         else:
@@ -357,7 +266,7 @@ class SqliteFile:
             if not block:
                 return
             yield block
-            fitting = _BLOCK_BYTES // max(1, len(block[-1][-1]))
+            fitting = BLOCK_BYTES // max(1, len(block[-1][-1]))
             size = min(max(1, fitting), _LARGEST_BLOCK)
 
     def _query(
