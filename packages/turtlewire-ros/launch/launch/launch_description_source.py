@@ -108,6 +108,5 @@ def _check(description: object, location: str) -> None:
 
 def _rejected(message: str, hint: str) -> RuntimeError:
     error = RuntimeError(message)
-    if hint:
-        vars(error)["hint"] = hint
+    vars(error)["hint"] = hint
     return error

@@ -244,7 +244,7 @@ def rearm() -> None:
 
 
 def rearm_after_loops() -> None:
-    """Do the same, but leave signals to a loop that runs: its program is asked again soon."""
+    """Restore the handling as `rearm` does, unless an asyncio loop runs in this thread."""
     if running_loop() is None:
         rearm()
 

@@ -68,9 +68,9 @@ class PlayClock:
         self.rate = rate
 
     def seconds_until(self, time_ns: int) -> float:
-        """Seconds of the real time until a time of the bag, as if it ran; 0 for the past.
+        """Return the real seconds until a time of the bag, as if it ran; 0 for the past.
 
-        At most what threads can wait.
+        The result is at most `threading.TIMEOUT_MAX`.
         """
         # From the last jump and not from now: errors do not add up over a long bag.
         due_ns = self._since_ns + (time_ns - self._shown_ns) / self.rate

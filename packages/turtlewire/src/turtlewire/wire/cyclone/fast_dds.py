@@ -5,7 +5,7 @@ inline QoS of the sample, which Cyclone's API does not show. Native code reads a
 Cyclone. It depends on the layout of some internal structures, so it accepts known versions only and
 checks each structure before it changes anything.
 
-The first request of a new client is asked for again at the addresses of this process.
+`FirstRequests` recovers the request that a client sends before the server has discovered it.
 """
 
 from __future__ import annotations
