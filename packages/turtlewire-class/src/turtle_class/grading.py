@@ -8,7 +8,7 @@ import shlex
 import signal
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from typing import TYPE_CHECKING, NamedTuple
 
 from turtle_class import ClassError, catalogue
@@ -99,8 +99,36 @@ def grade_all(
     Raises:
         KeyboardInterrupt: Ctrl-C. All that ran has been stopped.
     """
-    jobs = os.cpu_count() or 1
     runner = Runner(limits)
+    interrupted = threading.Event()
+
+    def interrupt() -> None:
+        interrupted.set()
+        runner.stop()
+
+    with hidden(), watched([signal.SIGINT], interrupt):
+        outcomes = _outcomes(runner, students, exercises, tell)
+    if interrupted.is_set():  # a stopped child has reported no results
+        raise KeyboardInterrupt
+    slugs = _slugs(students)
+    return [
+        GradeReport(
+            printable(student.name),
+            slugs[student],
+            tuple(outcomes[student, exercise.name].result() for exercise in exercises),
+        )
+        for student in students
+    ]
+
+
+def _outcomes(
+    runner: Runner,
+    students: Sequence[Path],
+    exercises: Sequence[ExerciseFolder],
+    tell: Callable[[str], object],
+) -> dict[tuple[Path, str], Future[Outcome]]:
+    """Return the outcomes by student and name of the exercise; all are done, or cancelled."""
+    jobs = os.cpu_count() or 1
     domains: queue.SimpleQueue[int] = queue.SimpleQueue()
     for number in range(jobs):
         domains.put(_LAST_DOMAIN - number % (_LAST_DOMAIN + 1))
@@ -114,36 +142,19 @@ def grade_all(
         finally:
             domains.put(domain)
 
-    interrupted = threading.Event()
-
-    def interrupt() -> None:
-        interrupted.set()
-        runner.stop()
-
     pool = ThreadPoolExecutor(jobs)
-    with hidden(), watched([signal.SIGINT], interrupt):
-        try:
-            work = {
-                (student, exercise.name): pool.submit(run, student, exercise)
-                for student in students
-                for exercise in exercises
-            }
-            for number, _ in enumerate(as_completed(work.values()), 1):
-                tell(f"{number} of {len(work)} graded")
-        finally:  # after Ctrl-C, no further exercise starts
-            pool.shutdown(wait=False, cancel_futures=True)
-            runner.stop()
-    if interrupted.is_set():  # a stopped child has reported no results
-        raise KeyboardInterrupt
-    slugs = _slugs(students)
-    return [
-        GradeReport(
-            printable(student.name),
-            slugs[student],
-            tuple(work[student, exercise.name].result() for exercise in exercises),
-        )
-        for student in students
-    ]
+    try:
+        work = {
+            (student, exercise.name): pool.submit(run, student, exercise)
+            for student in students
+            for exercise in exercises
+        }
+        for number, _ in enumerate(as_completed(work.values()), 1):
+            tell(f"{number} of {len(work)} graded")
+    finally:  # after Ctrl-C, no further exercise starts
+        pool.shutdown(wait=False, cancel_futures=True)
+        runner.stop()
+    return work
 
 
 def _ungraded(exercise: ExerciseFolder, error: Exception) -> Outcome:
