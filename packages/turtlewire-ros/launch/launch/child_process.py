@@ -96,7 +96,7 @@ class ChildProcess:
         return self._transport.get_returncode()
 
     async def read_rest(self) -> None:
-        """Read the rest of its output; for after its end."""
+        """Read the rest of the output of a process that has ended."""
         with contextlib.suppress(asyncio.TimeoutError):
             await asyncio.wait_for(self._protocol.streams_closed.wait(), _DRAIN_S)
 

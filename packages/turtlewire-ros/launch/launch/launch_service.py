@@ -59,7 +59,7 @@ class LaunchService:
         self._context.register_event_handler(OnIncludeLaunchDescription())
         self._context.register_event_handler(OnShutdown(on_shutdown=self._on_shutdown))
         self._running = threading.Lock()
-        # Acquired by the first of several reasons for a shutdown, from any thread.
+        # The first reason for a shutdown acquires it, on any thread.
         self._may_shut_down = threading.Lock()
         self._interrupted = False
         self._unseen_interrupts = 0

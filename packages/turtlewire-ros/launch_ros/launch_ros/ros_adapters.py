@@ -78,7 +78,7 @@ class ROSAdapter:
 
     @property
     def has_ended(self) -> bool:
-        """True if it does not run."""
+        """True when no thread spins the executor."""
         return self._thread is None
 
     def _spin(self) -> None:
@@ -109,8 +109,8 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
     if adapter is None or (adapter.has_ended and not context.is_shutdown):
         made = adapter = ROSAdapter()
         context.extend_globals({_KEY: adapter})
-        # After all others: they may still cancel what they have at the node. Once: a second
-        # required process may end during the shutdown.
+        # Appended, because other handlers may still cancel timers of the node. Handled once,
+        # because a second required process may end, and shut down again, during the shutdown.
         end = OnShutdown(on_shutdown=lambda *_: made.shutdown(), handle_once=True)
         context.register_event_handler(end, append=True)
     return adapter

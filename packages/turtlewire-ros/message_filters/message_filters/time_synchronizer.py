@@ -41,7 +41,7 @@ class TimeSynchronizer(SimpleFilter):
         self.connectInput(fs)
 
     def connectInput(self, fs: Sequence[SimpleFilter]) -> None:  # noqa: N802 -- ROS 2's name
-        """Listen to filters, instead of those before, and drop the waiting messages."""
+        """Listen to these filters only, and drop the waiting messages."""
         for former, number in zip(self._inputs, self.input_connections, strict=True):
             former.unregisterCallback(number)
         self._inputs = list(fs)

@@ -56,7 +56,7 @@ def _write(path: str, data: bytes) -> None:
     try:
         with open(path, "wb") as file:
             file.write(data)
-    except OSError as error:  # of a full disk, it names no file
+    except OSError as error:  # the error of a full disk does not name the file
         raise OSError(error.errno, error.strerror, path) from None
     print(f"Created file {printable(path)}")  # noqa: T201
 

@@ -114,7 +114,7 @@ def seconds(text: str) -> float:
     """
     try:
         value = float(text)
-    except ValueError:  # with the text of argparse, because rosbag2's type is float
+    except ValueError:  # argparse's own text: in rosbag2, the type is float
         raise argparse.ArgumentTypeError(f"invalid float value: {text!r}") from None
     if not value <= _MOST_SECONDS:  # not `>`, so that NaN is rejected as well
         raise argparse.ArgumentTypeError(f"{text} is not in the valid range (<= {_MOST_SECONDS})")

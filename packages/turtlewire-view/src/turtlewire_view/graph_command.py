@@ -81,7 +81,7 @@ def _save(path: str, selection: Selection) -> int:
     try:
         with open(path, "w", encoding="utf-8") as file:
             file.write(writer(picture, selection))
-    except OSError as error:  # of a full disk, it names no file
+    except OSError as error:  # the error of a full disk does not name the file
         raise OSError(error.errno, error.strerror, path) from None
     if not picture.nodes and (others := network.other_domains(picture.domain_id)):
         print(

@@ -313,7 +313,7 @@ Stamp interval_start(Stamp end, Stamp interval) {
   return end > kFirst ? std::max(start, kFirst) : start;
 }
 
-// An interval around `t` ends with the latest data, and one after it at `t`.
+// The end of an interval around `t`: at most the latest data, or `t` if that is later.
 Stamp interval_end(Stamp t, Stamp half, Stamp latest) {
   if (t > latest) return t;
   return elapsed(t, latest) < static_cast<std::uint64_t>(half) ? latest : t + half;

@@ -136,7 +136,7 @@ class TimerAction(Action):
             del self._timers[completed]
             context.unregister_event_handler(end)
             if self._canceled:
-                with contextlib.suppress(ValueError):  # an event of a program came before
+                with contextlib.suppress(ValueError):  # a program's event has used the handler
                     context.unregister_event_handler(due)
 
         completed.add_done_callback(forget)

@@ -117,7 +117,7 @@ class Outbox:
             self._on_loss(subscription_id)
 
     def end(self, number: int) -> None:
-        """Drop the messages of a subscription, now and from now on."""
+        """Drop the messages of a subscription that has ended, later ones too."""
         with self._lock:
             self._ids.pop(number, None)
             self._messages.pop(number, None)

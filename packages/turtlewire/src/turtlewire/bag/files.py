@@ -31,7 +31,7 @@ _ZIP_MAGIC = b"PK\x03\x04"
 def storage_files(folder: str) -> list[str]:
     """Return the storage files of a folder without metadata, in the order of their numbers.
 
-    Of a file and its compressed copy, which a killed recorder has left, only the file.
+    If a killed recorder has left a file and its compressed copy, only the file counts.
     """
     endings = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
     found = {entry.name for entry in os.scandir(folder) if entry.is_file()}

@@ -233,7 +233,7 @@ class Recording:
         return True
 
     def _write(self, messages: deque[_Message]) -> None:
-        """Write messages and take them out. The caller holds ``_disk``."""
+        """Write messages and remove them from the queue. The caller holds ``_disk``."""
         if self._snapshot:
             self._write_again(messages[0][2] if messages else self._last_ns, messages)
         while messages:

@@ -115,7 +115,7 @@ def _copy_sqlite(file: SqliteFile, path: str) -> None:
 
 
 def _remove_unfinished(path: str) -> None:
-    """Remove what a killed process has left that copied or compressed this file."""
+    """Remove unfinished copies of a file that a killed process has left."""
     for ending in (".part", ".part-journal", ".zstd.part"):
         with suppress(FileNotFoundError):
             os.remove(path + ending)

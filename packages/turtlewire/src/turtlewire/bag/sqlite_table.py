@@ -30,8 +30,8 @@ _COLUMNS = [("id", "INTEGER", 1), ("topic_id", "INTEGER", 0), ("timestamp", "INT
 class DatabaseFile:
     """A file that sqlite has open as well; keep it open as long as the database.
 
-    On POSIX systems, a process that closes any descriptor of a file loses all its locks of it, also
-    those of sqlite.
+    On POSIX systems, a process that closes any descriptor of a file loses all its locks of that
+    file, including sqlite's.
     """
 
     def __init__(self, path: str) -> None:
@@ -40,7 +40,7 @@ class DatabaseFile:
 
     @property
     def size(self) -> int:
-        """The bytes of the file, whose name may be gone: that of a decompressed copy is."""
+        """The size in bytes. Needs no name, which a decompressed copy has lost."""
         return os.fstat(self._file.fileno()).st_size
 
     @property
@@ -60,7 +60,7 @@ class DatabaseFile:
         return self._maps[-1]
 
     def close(self) -> None:
-        """Release the file. Maps that a table still reads stay."""
+        """Close the file. A map lives on while a table reads it."""
         self._maps.clear()
         self._file.close()
 
@@ -128,5 +128,5 @@ def _table(file: DatabaseFile, root: int) -> MessageTable | None:
     page = 1 << 16 if page == 1 else page
     try:
         return MessageTable(pages, page, page - pages[20], root)
-    except ValueError:  # of a damaged header
+    except ValueError:  # the header is damaged
         return None

@@ -155,7 +155,7 @@ class CycloneClient(TopicClient):
                     requests.close()
                     return
             except WireError as error:
-                if not self.requests.closed:  # with its node, by another thread
+                if not self.requests.closed:  # else another thread has closed the node
                     warn_once(f"requests {self.service}", str(error))
                 return
             self._identified = IdentifiedRequests(requests, self.replies.gid, self._refuse)
