@@ -41,7 +41,7 @@ def write(path, rows, page_bytes=4096, tables=TABLES):
 def natively(path, topics=(1, 2), window=ALL):
     """Return the rows of the native reader, and the id after which SQL has to read."""
     found = []
-    with closing(DatabaseFile(path)) as file, closing(sqlite3.connect(path)) as database:
+    with DatabaseFile.opened(path) as file, closing(sqlite3.connect(path)) as database:
         database.text_factory = lambda name: name.decode("utf-8", "replace")
         blocks = table_blocks(database, file, topics, window)
         while True:
@@ -92,7 +92,7 @@ def test_the_topics_and_the_window_are_inclusive(tmp_path):
 def test_many_rows_come_in_blocks(tmp_path):
     rows = [(k, 1, 10**18 + k, b"12345678") for k in range(1, 100_001)]
     path = write(tmp_path / "a.db3", rows, 512)  # a tree of four levels
-    with closing(DatabaseFile(path)) as file, closing(sqlite3.connect(path)) as database:
+    with DatabaseFile.opened(path) as file, closing(sqlite3.connect(path)) as database:
         blocks = list(table_blocks(database, file, (1,), ALL))
     assert len(blocks) > 3
     assert [row for block in blocks for row in block] == [(row[2], row[3]) for row in rows]
@@ -151,10 +151,23 @@ def test_other_processes_cannot_change_the_file_meanwhile(tmp_path):
         blocks = opened.unordered_blocks((1,), *ALL)
         next(blocks)
         assert len(list(opened.unordered_blocks((1,), *ALL))) > 1  # a second reader that ends
+        with open_bag(path) as again:
+            assert len(again) == 8
         refused = subprocess.run(delete, capture_output=True, text=True, check=False)
         assert "database is locked" in refused.stderr
         blocks.close()
         subprocess.run(delete, check=True)
+
+
+def test_the_log_of_a_linked_file_is_seen(tmp_path):
+    path = tmp_path / "a.db3"
+    link = tmp_path / "link.db3"
+    link.symlink_to(path)
+    with closing(sqlite3.connect(path)) as database:
+        database.executescript("PRAGMA journal_mode = WAL;" + TABLES)
+        database.execute("INSERT INTO messages VALUES (1, 1, 1, x'61')")
+        database.commit()
+        assert natively(str(link)) == ([], BEFORE_ALL_IDS)
 
 
 def test_columns_are_in_the_order_of_time(tmp_path):

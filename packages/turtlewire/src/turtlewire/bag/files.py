@@ -14,6 +14,7 @@ from turtlewire.bag.metadata import BagMetadata, FileInfo, TopicInfo
 from turtlewire.bag.ros1_file import MAGIC as ROS1_MAGIC
 from turtlewire.bag.ros1_storage import Ros1Storage
 from turtlewire.bag.sqlite_storage import SqliteStorage
+from turtlewire.bag.sqlite_table import DatabaseFile, log_exists
 from turtlewire.distro import LYRICAL
 from turtlewire.errors import BagError
 
@@ -130,10 +131,10 @@ def open_storage(path: str, name: str = "") -> StorageFile:
         FileNotFoundError: The file does not exist.
         BagError: The file has none of these formats.
     """
-    if os.path.exists(path + "-wal") and os.path.getsize(path):
+    if log_exists(path) and os.path.getsize(path):
         return SqliteStorage(path, name)  # closing the file would end the locks of our writer
-    with open(path, "rb") as file:
-        start = file.read(len(_SQLITE_MAGIC))
+    with DatabaseFile.opened(path) as file:
+        start = file.header()[: len(_SQLITE_MAGIC)]
     if start.startswith(MAGIC):
         return McapStorage(path, name)
     if start == _SQLITE_MAGIC:

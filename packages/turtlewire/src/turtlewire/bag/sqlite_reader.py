@@ -13,14 +13,20 @@ import os
 import sqlite3
 from collections import Counter
 from collections.abc import Collection, Iterator
-from contextlib import suppress
+from contextlib import ExitStack, closing, suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
 from urllib.parse import quote
 
 from turtlewire.bag.metadata import TopicInfo, full_type_name, parse_metadata
 from turtlewire.bag.qos_yaml import load_yaml, profiles_from_yaml
-from turtlewire.bag.sqlite_table import BEFORE_ALL_IDS, BLOCK_BYTES, DatabaseFile, table_blocks
+from turtlewire.bag.sqlite_table import (
+    BEFORE_ALL_IDS,
+    BLOCK_BYTES,
+    DatabaseFile,
+    log_exists,
+    table_blocks,
+)
 from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
@@ -58,18 +64,19 @@ class SqliteFile:
             raise FileNotFoundError(f"{path} does not exist")
         # A file with a write-ahead log next to it was not closed: sqlite must be allowed to replay
         # it. This process may be writing it, and must not close another descriptor of it.
-        has_log = os.path.exists(path + "-wal")
+        has_log = log_exists(path)
         mode = "rw" if has_log else "ro"
-        self._file = None if has_log else DatabaseFile(path)
-        self._database = sqlite3.connect(
-            f"file:{quote(os.path.abspath(path))}?mode={mode}", uri=True, check_same_thread=False
-        )
-        self._database.text_factory = _text
+        self._opened = ExitStack()
+        self._file = None if has_log else self._opened.enter_context(DatabaseFile.opened(path))
         #: Log time and id of the rows that can be read, in order; None if the file is whole.
         self._whole_rows: list[tuple[int, int, int]] | None = None
         self._counts: dict[int, int] | None = None
         self._page_bytes = missing = 0
         try:
+            url = f"file:{quote(os.path.abspath(path))}?mode={mode}"
+            self._database = sqlite3.connect(url, uri=True, check_same_thread=False)
+            self._opened.enter_context(closing(self._database))
+            self._database.text_factory = _text
             missing = self._missing_bytes()
             if missing:  # sqlite3 opens such a file only for repair
                 self._database.execute("PRAGMA writable_schema = ON")
@@ -92,9 +99,7 @@ class SqliteFile:
 
     def close(self) -> None:
         """Release the file."""
-        self._database.close()
-        if self._file is not None:
-            self._file.close()
+        self._opened.close()
 
     def _read_topics(self) -> dict[int, TopicInfo]:
         return {

@@ -9,8 +9,10 @@ from __future__ import annotations
 import mmap
 import os
 import sqlite3
-from collections.abc import Collection, Generator
-from typing import TYPE_CHECKING
+import threading
+from collections.abc import Collection, Generator, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, ClassVar
 
 from turtlewire.platforms import asked_core
 
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
     from turtlewire._native import MessageTable
     from turtlewire.bag.record_messages import LoggedBytes
 
-__all__ = ["BEFORE_ALL_IDS", "BLOCK_BYTES", "DatabaseFile", "table_blocks"]
+__all__ = ["BEFORE_ALL_IDS", "BLOCK_BYTES", "DatabaseFile", "log_exists", "table_blocks"]
 
 BEFORE_ALL_IDS = -(1 << 63)
 
@@ -27,16 +29,49 @@ BLOCK_BYTES = 1 << 18
 _COLUMNS = [("id", "INTEGER", 1), ("topic_id", "INTEGER", 0), ("timestamp", "INTEGER", 0)]
 
 
+def log_exists(path: str) -> bool:
+    """Return true if a write-ahead log lies next to a database, or to the target of a link."""
+    return os.path.exists(os.path.realpath(path) + "-wal")
+
+
 class DatabaseFile:
-    """A file that sqlite has open as well; keep it open as long as the database.
+    """A file that sqlite may have open as well. The readers of this process share it.
 
     On POSIX systems, a process that closes any descriptor of a file loses all its locks of that
-    file, including sqlite's.
+    file, including sqlite's. So there is one descriptor, which the last reader closes.
     """
 
+    _shared: ClassVar[dict[tuple[int, int], DatabaseFile]] = {}  # by device and inode
+    _lock: ClassVar[threading.Lock] = threading.Lock()
+
     def __init__(self, path: str) -> None:
+        self.path = path
         self._file = open(path, "rb")  # noqa: SIM115
         self._maps: list[mmap.mmap] = []  # each has a descriptor, too
+        self._readers = 0
+
+    @classmethod
+    @contextmanager
+    def opened(cls, path: str) -> Iterator[DatabaseFile]:
+        """Open a file, or share it if another reader has it open.
+
+        Raises:
+            OSError: The file cannot be opened.
+        """
+        status = os.stat(path)
+        key = (status.st_dev, status.st_ino)
+        with cls._lock:
+            file = cls._shared[key] = cls._shared.get(key) or cls(path)
+            file._readers += 1
+        try:
+            yield file
+        finally:
+            with cls._lock:
+                file._readers -= 1
+                if not file._readers:
+                    del cls._shared[key]
+                    file._maps.clear()  # a map lives on while a table reads it
+                    file._file.close()
 
     @property
     def size(self) -> int:
@@ -46,23 +81,20 @@ class DatabaseFile:
     @property
     def has_log(self) -> bool:
         """True if a write-ahead log lies next to the file."""
-        return os.path.exists(self._file.name + "-wal")
+        return log_exists(self.path)
 
     def header(self) -> bytes:
         """Return the first bytes."""
-        self._file.seek(0)
-        return self._file.read(32)
+        with self._lock:
+            self._file.seek(0)
+            return self._file.read(32)
 
     def pages(self) -> mmap.mmap:
         """Return the content, in a new map if the size has changed."""
-        if not self._maps or len(self._maps[-1]) != self.size:
-            self._maps.append(mmap.mmap(self._file.fileno(), 0, access=mmap.ACCESS_READ))
-        return self._maps[-1]
-
-    def close(self) -> None:
-        """Close the file. A map lives on while a table reads it."""
-        self._maps.clear()
-        self._file.close()
+        with self._lock:
+            if not self._maps or len(self._maps[-1]) != self.size:
+                self._maps.append(mmap.mmap(self._file.fileno(), 0, access=mmap.ACCESS_READ))
+            return self._maps[-1]
 
 
 def table_blocks(
@@ -74,8 +106,7 @@ def table_blocks(
     """Yield the messages of topics in the order of the table, some at a time.
 
     Args:
-        database: The open database; while messages are read, other processes cannot change it. On
-            POSIX systems, they can if this process opens the file twice and closes it once.
+        database: The open database; while messages are read, other processes cannot change it.
         file: The same file.
         topics: The ids of the topics.
         window: The first and the last log time.
