@@ -1,4 +1,6 @@
-"""Requirements of some tests that a bare machine does not meet, and how to install them."""
+"""What some tests need: software that a bare machine lacks and how to install it, or much time."""
+
+from typing import Any
 
 import pytest
 
@@ -12,3 +14,8 @@ CYCLONE_DDS = (
     "libddsc0t64 (before Debian 13: libddsc0debian)"
 )
 needs_cyclone_dds = pytest.mark.skipif(not HAS_CYCLONE_DDS, reason=CYCLONE_DDS)
+
+
+def only_first_is_fast(first: Any, *others: Any) -> list[Any]:
+    """Return values for `parametrize`; the others, which take long, are for the slow tests."""
+    return [first, *(pytest.param(other, marks=pytest.mark.slow) for other in others)]

@@ -32,6 +32,7 @@ def house():
     return architecture.House(ROOT)
 
 
+@pytest.mark.slow
 def test_circles_of_imports_only_become_fewer(house):
     found = dict.fromkeys(IN_CIRCLES, 0)
     for circle in house.circles("run", "late", "type"):

@@ -95,12 +95,14 @@ def run_pytest(folder, *, strict):
     return done.stdout.splitlines()[-1].strip("= ").partition(" in ")[0], done.returncode
 
 
+@pytest.mark.slow
 def test_a_test_fails_if_what_it_misses_can_be_installed(tmp_path):
     (tmp_path / "test_some.py").write_text(TESTS)
     assert run_pytest(tmp_path, strict=False) == ("4 skipped, 1 xfailed", 0)
     assert run_pytest(tmp_path, strict=True) == ("3 failed, 1 skipped, 1 xfailed", 1)
 
 
+@pytest.mark.slow
 def test_a_module_fails_if_what_it_misses_can_be_installed(tmp_path):
     (tmp_path / "test_other.py").write_text(MODULE)
     assert run_pytest(tmp_path, strict=False) == ("1 skipped", 5)

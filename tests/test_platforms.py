@@ -19,6 +19,7 @@ from turtlewire.terminal.console_keyboard import ConsoleKeyboard
 from turtlewire.wire.wheels import Platform, advice
 
 
+@pytest.mark.slow
 def test_nothing_is_used_that_only_posix_has(capsys):
     assert platforms.main() == 0, capsys.readouterr().out
 

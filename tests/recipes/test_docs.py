@@ -52,6 +52,7 @@ def test_the_search_words_stand_in_the_first_line(page, words):
     assert all(each in title for each in words)
 
 
+@pytest.mark.slow
 def test_the_commands_move_the_arm(run):
     start, command = blocks_of(SIMULATORS, "sh")
     program = run("bash", "-c", f"exec {start.strip().removesuffix(' &')}")
@@ -86,6 +87,7 @@ def test_the_tables_list_the_parameters_and_topics():
         assert f"`{name}`" in SIMULATORS
 
 
+@pytest.mark.slow
 def test_the_bags_are_converted_and_read():
     (convert,) = blocks_of(TRAINING, "sh")
     printed, rows = blocks_of(TRAINING, "text")
@@ -104,6 +106,7 @@ def test_the_options_and_modules_of_the_page_exist():
         assert (EXAMPLES / "bag_to_lerobot" / f"{name}.py").exists()
 
 
+@pytest.mark.slow
 def test_a_bag_becomes_a_file_of_rerun():
     rerun = pytest.importorskip("rerun", reason="the recipe needs Python 3.11")
     (commands,) = blocks_of(RERUN, "sh")

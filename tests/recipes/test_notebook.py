@@ -84,6 +84,7 @@ def test_results_are_the_ones_that_the_notebook_announces(executed):
     assert "[1.353, 0.   , 1.161]" in displayed(executed, cell)["text/plain"]
 
 
+@pytest.mark.slow
 def test_the_view_of_the_kernel_is_shown_in_the_notebook(executed, browser_3d, home):
     html = displayed(executed, "view")["text/html"]
     (home / "page.html").write_text(f"<!doctype html><title>Notebook</title>{html}")

@@ -85,6 +85,7 @@ def test_three_feet_of_the_walker_are_always_on_the_ground():
     assert gait(0.5) == pytest.approx((-1, 0.0))
 
 
+@pytest.mark.slow
 def test_the_page_does_what_it_says(run, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", PATH)
     monkeypatch.setenv("TURTLEWIRE_BROWSER", "0")

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.needs import needs_cyclone_dds
+from tests.needs import needs_cyclone_dds, only_first_is_fast
 from tests.places import SCRIPTS, TOOLS
 
 DEMO = TOOLS / "demo.py"
@@ -54,7 +54,7 @@ def is_running(pid):
         return False
 
 
-@pytest.mark.parametrize("terminal", [True, False])
+@pytest.mark.parametrize("terminal", only_first_is_fast(True, False))
 def test_the_demo_reports_and_ends_at_ctrl_c_with_all_its_processes(run, terminal):
     demo = run(sys.executable, DEMO, environment=HEADLESS, terminal=terminal)
     domain = os.environ["ROS_DOMAIN_ID"]

@@ -12,14 +12,14 @@ from turtlewire.cli.main import main
 
 from ..turtle_lesson.wrong_answers import WRONG_ANSWERS
 
-#: Checking an exercise takes seconds; these two are enough for the fast tests.
-QUICK = ("static", "listener")
+#: Checking an exercise takes seconds; this one is enough for the fast tests.
+QUICK = "static"
 
 
 def of_exercises(values):
     """Name values by their exercise; most are for the slow tests."""
     return [
-        pytest.param(value, id=name, marks=() if name.split("-")[0] in QUICK else pytest.mark.slow)
+        pytest.param(value, id=name, marks=() if name.split("-")[0] == QUICK else pytest.mark.slow)
         for name, value in values.items()
     ]
 

@@ -127,6 +127,7 @@ def hostile(attack):
     return PRELUDE + attack + silly("solved").replace("'carrot1'", "'carrot'")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="the attacks look for processes in /proc")
 @pytest.mark.parametrize("name", ATTACKS)
 def test_an_attack_gives_no_points(tmp_path, name):

@@ -46,7 +46,12 @@ def test_a_solution_passes(tmp_path):
 @pytest.mark.parametrize(
     ("name", "text", "hint"),
     [
-        ("endless", "did not return", "use a timer instead of a loop"),
+        pytest.param(
+            "endless",
+            "did not return",
+            "use a timer instead of a loop",
+            marks=pytest.mark.slow,
+        ),
         ("exits", "ended with status 0", "Something ended the whole Python process"),
         ("forks", "calls os.fork", "neither starts programs nor ends others"),
         ("crashes", "ended with status", "a library that crashed"),
@@ -223,6 +228,7 @@ def test_they_end_with_the_grader():
     assert sum(line.strip().isdecimal() for line in lines) == 3
 
 
+@pytest.mark.slow
 def test_reports_of_a_class(submissions, tmp_path, capsys):
     evil = "eve<script>alert(1)<\x1b[2J"
     names = ["solved", "misspelt", "floods"]

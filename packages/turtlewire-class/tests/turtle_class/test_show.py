@@ -9,6 +9,7 @@ import subprocess
 import threading
 
 import pytest
+from tests.needs import only_first_is_fast
 from tests.places import TURTLEWIRE
 
 from turtle_class import ClassError
@@ -230,7 +231,7 @@ def command(*words):
     )
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", only_first_is_fast(signal.SIGINT, signal.SIGTERM))
 def test_the_command_ends_at_once(domains, number):
     low, high = sorted(domains)
     with command("--domains", f"{low},{high}", "--port", "0", "--lan") as program:

@@ -52,6 +52,7 @@ def sh(command, folder, **environment):
     )
 
 
+@pytest.mark.slow
 def test_the_graders_and_the_report_run(repository):
     by_name = {step["id"]: step["with"]["command"] for step in GRADERS}
     solved = sh(by_name["static"], repository)
@@ -93,6 +94,7 @@ def test_the_container_is_json_and_installs():
 PAGE = (HOW_TO / "classroom.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_the_page_does_what_it_says(run, tmp_path):
     shutil.copytree(EXAMPLES, tmp_path / "examples")
     (tmp_path / "roster.csv").write_text(blocks_of(PAGE, "text")[0], encoding="utf-8")

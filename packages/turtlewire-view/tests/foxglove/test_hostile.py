@@ -256,6 +256,7 @@ def test_a_slow_client_loses_old_messages_and_others_lose_none(serve, client, ro
     assert not [each for each in slow.frames if isinstance(each, dict) and each["op"] == "status"]
 
 
+@pytest.mark.slow
 def test_a_client_that_reads_nothing_is_asked_for_no_more(serve, client):
     """Its requests wait, and the server's memory does not grow."""
     server = serve()
@@ -277,6 +278,7 @@ def test_a_client_that_reads_nothing_is_asked_for_no_more(serve, client):
     two.sync()
 
 
+@pytest.mark.slow
 def test_nothing_stays_of_clients_and_topics_that_have_gone(serve, client, robot):
     server = serve()
     for number in range(30):

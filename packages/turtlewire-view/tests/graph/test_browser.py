@@ -1,6 +1,7 @@
 """The page of the graph in a real browser."""
 
 import pytest
+from tests.needs import only_first_is_fast
 from tests.pages import (
     UNREAD_NAMES,
     root_size_with,
@@ -229,7 +230,7 @@ def test_a_lost_connection_is_said(page, graph_page):
     page.wait_for_selector(LOST)
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", only_first_is_fast("light", "dark"))
 def test_texts_borders_and_rings_stand_out(robot, open_graph, scheme):
     page = open_graph(color_scheme=scheme)
     wait_for_robot(page)
@@ -240,7 +241,7 @@ def test_texts_borders_and_rings_stand_out(robot, open_graph, scheme):
     assert page.evaluate(UNREAD_NAMES) == []
 
 
-@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("size", only_first_is_fast(*SIZES))
 def test_the_page_fits_every_window(robot, open_graph, size):
     page = open_graph(size)
     wait_for_robot(page)
@@ -261,6 +262,7 @@ def test_the_size_of_texts_in_the_browser_counts(page):
     assert root_size_with(page, 24) == pytest.approx(22.5)
 
 
+@pytest.mark.slow
 def test_300_nodes_are_drawn_and_found(nodes, open_graph):
     picture = large(300).picture()
     for end in picture.endpoints:

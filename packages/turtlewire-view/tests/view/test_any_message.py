@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from tests.needs import only_first_is_fast
 
 from turtlewire import msg
 from turtlewire_view.displays import display_for, display_types, displays_of
@@ -118,7 +119,7 @@ def test_any_message_gets_an_answer(type_name):
     law()
 
 
-@pytest.mark.parametrize("kind", ["camera", "depth_cloud"])
+@pytest.mark.parametrize("kind", only_first_is_fast("camera", "depth_cloud"))
 def test_any_messages_of_several_topics_get_answers(kind):
     of_kind = displays_of(kind)
     display_type = of_kind["sensor_msgs/msg/Image"]

@@ -10,6 +10,7 @@ import struct
 
 import numpy as np
 import pytest
+from tests.needs import only_first_is_fast
 from tests.pages import wait_until
 
 from turtlewire.tf.buffer import Buffer
@@ -249,7 +250,7 @@ def describe(source, text):
     source.offer("/robot_description", get("std_msgs/msg/String")(data=text))
 
 
-@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("size", only_first_is_fast(*SIZES))
 def test_a_tall_robot_is_seen_whole(source, open_view, size):
     describe(source, TALL.format(visual=SMALL))
     width, height = SIZES[size]

@@ -277,6 +277,7 @@ def test_a_tool_in_hand_moves_no_marker(server):
     page.keyboard.press("Escape")
 
 
+@pytest.mark.slow
 def test_thousands_of_controls_are_cut_with_one_line(server):
     server.show(knob(*[control("move_axis")] * 10_000))
     server.scene.expect_status("1000 of 10000 controls are drawn")

@@ -8,6 +8,7 @@ from urllib.parse import urlsplit
 from urllib.request import Request, urlopen
 
 import pytest
+from tests.needs import only_first_is_fast
 from tests.plain_server import path_proxy, plain_server
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
@@ -60,7 +61,7 @@ def shows_frames(frame):
     frame.locator("#tree .row:has-text('camera')").wait_for()
 
 
-@pytest.mark.parametrize("name", ["localhost", "127.0.0.1"])
+@pytest.mark.parametrize("name", only_first_is_fast("localhost", "127.0.0.1"))
 def test_a_notebook_at_another_port_shows_the_view(view, jupyter, tab, tmp_path, name):
     write_page(tmp_path / "notebook.html", view._repr_html_())
     tab.goto(f"http://{name}:{jupyter}/notebook.html")

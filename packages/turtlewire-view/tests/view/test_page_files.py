@@ -14,6 +14,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
+from tests.needs import only_first_is_fast
 from tests.pages import after_two_frames, difference, skip_with_other_fonts
 
 from tests import places
@@ -144,8 +145,8 @@ def told(fake):
     return fake
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("scheme", only_first_is_fast("light", "dark"))
+@pytest.mark.parametrize("size", only_first_is_fast(*SIZES))
 def test_every_size_and_scheme(told, open_view, size, scheme):
     width, height = SIZES[size]
     page = open_view(told.url, viewport={"width": width, "height": height}, color_scheme=scheme)

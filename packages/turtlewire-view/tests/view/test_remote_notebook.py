@@ -120,6 +120,7 @@ def test_a_hub_shows_the_view_in_an_isolated_output(hub, tab):
     shows_frames(tab.frame_locator("iframe").frame_locator("iframe"))
 
 
+@pytest.mark.slow
 def test_the_link_opens_the_view_in_a_tab(hub, tab):
     answer(tab, f"{hub.home}/lab", hub.view._repr_html_())
     tab.goto(f"{hub.home}/lab")
@@ -228,6 +229,7 @@ def test_other_notebooks_show_the_html(hub, show):
     assert html == hub.view._repr_html_()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("top", [COLAB, FOREIGN])
 def test_colab_and_no_foreign_page_embeds_the_view(colab, tab, tls, top):
     """Colab's function makes a frame with an address at another host."""

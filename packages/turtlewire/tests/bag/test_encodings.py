@@ -15,6 +15,7 @@ from rosbags.convert.converter import migrate_bytes
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from tests.bags import START
+from tests.needs import only_first_is_fast
 from tests.rosbags_messages import random_message
 
 import turtlewire
@@ -166,7 +167,7 @@ def write_bag(path, store, messages, storage=StoragePlugin.MCAP):
 
 
 @pytest.mark.parametrize("storage", list(StoragePlugin))
-@pytest.mark.parametrize("release", OTHERS)
+@pytest.mark.parametrize("release", only_first_is_fast(*OTHERS))
 def test_each_type_of_each_release(tmp_path, release, storage):
     store = get_typestore(release)
     generator = random.Random(release.name)

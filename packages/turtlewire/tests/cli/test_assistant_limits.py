@@ -172,6 +172,7 @@ def test_the_configuration_starts_the_server_with_the_tools_of_the_page():
     anyio.run(session)
 
 
+@pytest.mark.slow
 def test_the_program_prints_what_the_page_says(run):
     node = run("ros2", "run", "turtlesim", "turtlesim_node", "--headless", environment=ENVIRONMENT)
     node.wait_for("Spawning turtle")

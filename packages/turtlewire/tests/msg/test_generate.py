@@ -143,6 +143,7 @@ def test_a_type_is_found_by_name_before_its_package_was_imported(generated):
     assert done.stdout == "1.5\n"
 
 
+@pytest.mark.slow
 def test_stubs_satisfy_a_type_checker(generated, tmp_path):
     pytest.importorskip("mypy", reason="needs mypy (scripts/setup lint)")
     program = tmp_path / "user.py"

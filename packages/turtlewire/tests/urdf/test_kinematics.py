@@ -237,6 +237,7 @@ def test_joints_that_follow_each_other_are_refused():
     assert caught.value.line == 2
 
 
+@pytest.mark.slow
 def test_ten_thousand_joints_that_follow_each_other():
     links = "".join(
         chain_link(f"j{number}", f'<mimic joint="j{number - 1}" offset="1"/>')

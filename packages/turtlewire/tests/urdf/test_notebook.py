@@ -96,7 +96,7 @@ def test_names_cannot_contain_html():
     assert rows(robot)[0][0] == "<script>alert(1)</script>0"
 
 
-@pytest.mark.parametrize("count", [500, 501, 10_000])
+@pytest.mark.parametrize("count", [500, 501, pytest.param(10_000, marks=pytest.mark.slow)])
 def test_the_first_500_links_are_shown(count):
     robot = chain(count)
     assert len(rows(robot)) == 500

@@ -331,6 +331,7 @@ def test_a_damaged_robot_is_a_robot_or_a_refusal(data):
         assert Robot.from_xml(text[:begin] + piece + text[end:]).root
 
 
+@pytest.mark.slow
 def test_a_loop_of_ten_thousand_links_is_one_error():
     count = 10_000
     links = "".join(f'<link name="l{number}"/>' for number in range(count))

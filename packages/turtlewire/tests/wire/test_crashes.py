@@ -88,6 +88,7 @@ def test_an_abort_for_another_reason_ends_as_before():
     assert done.stderr.count("Fatal Python error: Aborted") == 1
 
 
+@pytest.mark.slow
 @on_posix
 @needs_cyclone_dds
 def test_threads_that_still_call_survive_the_end_of_the_last_context():

@@ -30,6 +30,7 @@ def _shell(monkeypatch, real_middleware):
     monkeypatch.setenv("PYTHONUTF8", "1")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", PAGES)
 def test_the_page_does_what_it_says(page, run):
     found = blocks((HOW_TO / page).read_text())

@@ -288,6 +288,7 @@ def test_the_scope_of_a_launch_fixture():
 PAGE = HOW_TO / "test_a_node.md"
 
 
+@pytest.mark.slow
 def test_the_page_does_what_it_says(tmp_path):
     text = PAGE.read_text()
     assert [kind for kind, _ in blocks(text)] == ["python", "sh", "sh", "python", "sh"]

@@ -98,6 +98,7 @@ def test_interfaces_are_in_share_as_text_and_as_idl(wheel):
         assert listed.decode().splitlines() == sorted(names)
 
 
+@pytest.mark.slow
 def test_an_sdist_has_all_that_its_wheel_needs(wheel, tmp_path):
     """Where it is built, the engine's sources are not next to it."""
     build = "import sys, hatchling.build as b; b.build_sdist(sys.argv[1])"

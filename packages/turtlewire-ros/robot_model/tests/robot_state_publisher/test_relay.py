@@ -117,6 +117,7 @@ def test_a_node_that_nobody_spins_publishes_nothing(native_rig):
     assert stamps_ms(rig.transforms()) == [1400, 1500, 1600, 1700, 1800]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="processes cannot be stopped here")
 def test_a_subscription_that_stands_still_stops_nobody(run, tmp_path):
     (tmp_path / "robot.urdf").write_text(ONE)

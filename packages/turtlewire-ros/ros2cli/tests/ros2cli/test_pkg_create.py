@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 from defusedxml import ElementTree
+from tests.needs import only_first_is_fast
 
 from ros2cli.main import main
 from ros2pkg.api.create import (
@@ -266,7 +267,7 @@ def cpp_package(tmp_path, build_type, populate, node, library):
 @pytest.mark.parametrize(
     ("build_type", "populate"), [("cmake", populate_cmake), ("ament_cmake", populate_ament_cmake)]
 )
-@pytest.mark.parametrize("library", [None, "my_tools"])
+@pytest.mark.parametrize("library", only_first_is_fast("my_tools", None))
 def test_a_package_of_cpp_is_built_and_installed(tmp_path, build_type, populate, library):
     folder = cpp_package(tmp_path, build_type, populate, "talk", library)
     stub = tmp_path / "prefix" / "ament_cmakeConfig.cmake"

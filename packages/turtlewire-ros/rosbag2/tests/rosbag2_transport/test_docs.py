@@ -19,6 +19,7 @@ def shell(run, tmp_path, monkeypatch):
     return lambda line: run("bash", "-c", f"exec {line}", cwd=tmp_path)
 
 
+@pytest.mark.slow
 def test_the_page_does_what_it_says(shell, run, tmp_path):
     found = blocks(PAGE.read_text())
     assert len(found) == 11

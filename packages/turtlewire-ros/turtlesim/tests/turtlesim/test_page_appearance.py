@@ -13,6 +13,7 @@ import os
 from pathlib import Path
 
 import pytest
+from tests.needs import only_first_is_fast
 from tests.pages import after_two_frames, difference, skip_with_other_fonts
 
 from tests import places
@@ -69,8 +70,8 @@ def test_the_picture_is_what_is_seen(scene, open_page):
     )
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("scheme", only_first_is_fast("light", "dark"))
+@pytest.mark.parametrize("size", only_first_is_fast(*SIZES))
 def test_every_size_and_scheme(scene, open_page, size, scheme):
     width, height = SIZES[size]
     options = {"viewport": {"width": width, "height": height}, "device_scale_factor": 0.5}
