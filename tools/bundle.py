@@ -84,7 +84,8 @@ def collect(python: str, wheels: Path) -> None:
     """Build our wheels for a Python, and fetch those that they need, pip included."""
     print(f"[bundle] wheels for {python} …", file=sys.stderr, flush=True)
     with tempfile.TemporaryDirectory() as scratch:
-        command = [python, "-m", "pip", "wheel", "-q", "-w", scratch, *distributions(), "pip"]
+        command = [python, "-m", "pip", "wheel", "-q", "-w", scratch, "pip"]
+        command += map(str, distributions())
         if subprocess.run(command, cwd=ROOT, check=False).returncode:
             raise BundleError(f"this failed, see above: {' '.join(command)}")
         for wheel in Path(scratch).glob("*.whl"):

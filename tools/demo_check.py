@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from demo import FOLLOWER, LEADER
 from demo_launch import Launch, free_domain
 
+from geometry_msgs.msg import Twist
 from turtlewire import Buffer, msg, wire
 from turtlewire.distro import KILTED, since
 from turtlewire.errors import TransformException
@@ -198,7 +199,7 @@ class Observer:
         Raises:
             CheckError: A process or a stream of the demo has stopped.
         """
-        twist = msg.get_message("geometry_msgs/msg/Twist")()
+        twist = Twist()
         twist.linear.x, twist.angular.z = forward, turn
         end = time.monotonic() + duration
         while (remaining := end - time.monotonic()) > 0.0:
@@ -215,7 +216,7 @@ class Observer:
             raise CheckError(f"the transform between the turtles is not there: {error}") from error
         self.lookups += 1
         # the stamp is that of the turtle whose broadcaster has been silent for longer
-        age_s = time.time() - newest_ns / 1e9
+        age_s = time.time() - (newest_ns or 0) / 1e9
         if age_s > SILENCE_LIMIT_S:
             raise CheckError(
                 f"the newest transform between the turtles is {age_s:.1f} s old: "

@@ -60,4 +60,5 @@ def requirements(wheel: Path, version: str, machine: str) -> list[Requirement]:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]), *sys.argv[3:5], sys.argv[5:])
+    _, wheels, venv, version, machine, *packages = sys.argv
+    main(Path(wheels), Path(venv), version, machine, packages)

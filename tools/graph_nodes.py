@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import threading
 
+from geometry_msgs.msg import Twist
 from turtlewire import msg, wire
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.qos import Durability, QoS, Reliability
@@ -43,7 +44,7 @@ def main() -> None:
             publishers[name, topic] = node.create_publisher(topic, _identity(type_name), qos)
         for topic, type_name, qos in subscribes:
             node.create_subscription(topic, _identity(type_name), qos, lambda *_: None)
-    forward = msg.get_message(TWIST)()
+    forward = Twist()
     forward.linear.x = 0.5
     ended = threading.Event()
     while not ended.wait(PERIOD_S):

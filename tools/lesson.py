@@ -239,7 +239,7 @@ def _pack_pure_python(archive: Path) -> None:
             for path in sorted(importlib.metadata.files(name) or [], key=str):
                 is_wanted = path.suffix == ".py" or ".dist-info" in str(path)
                 if is_wanted and not str(path).startswith(".."):
-                    packed.writestr(_entry(str(path)), path.locate().read_bytes())
+                    packed.writestr(_entry(str(path)), Path(path.locate()).read_bytes())
 
 
 def _entry(name: str) -> zipfile.ZipInfo:

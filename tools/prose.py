@@ -93,8 +93,8 @@ def faults_of(source: str, names: set[str]) -> Iterator[tuple[int, str]]:
             if name not in names:
                 yield line, f"the docstring names {name}, which does not exist"
     for number, text in enumerate(source.splitlines(), 1):
-        if phrase := PHRASES.search(text.partition("# ")[2]):
-            yield number, f"the comment says {phrase[0]!r}"
+        if found := PHRASES.search(text.partition("# ")[2]):
+            yield number, f"the comment says {found[0]!r}"
 
 
 if __name__ == "__main__":

@@ -67,7 +67,9 @@ def exported(package: griffe.Object | griffe.Alias, name: str) -> griffe.Module:
     """Return a module with what a package exports, wherever that is defined."""
     found = griffe.Module(f"{package.name}.{name}" if name else package.name)
     module = package.modules.get(name) if name else package
-    for export in (module.exports or ()) if module is not None else ():
+    if module is None:
+        return found
+    for export in module.exports or ():
         member = module[str(export)]
         # Not by set_member(), which would move it away from its base classes.
         found.members[str(export)] = member.final_target if member.is_alias else member

@@ -81,7 +81,7 @@ def address_of(process: subprocess.Popen[str]) -> str:
         lines.append(line)
         if found := re.search(r"http://\S+", line):
             return found[0]
-    raise RuntimeError(f"{process.args} ended before its page was there:\n{''.join(lines)}")
+    raise RuntimeError(f"{process.args!r} ended before its page was there:\n{''.join(lines)}")
 
 
 @contextlib.contextmanager

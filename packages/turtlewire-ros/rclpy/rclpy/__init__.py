@@ -66,7 +66,7 @@ from typing import TYPE_CHECKING, Any
 # First, so that an early Ctrl-C also ends without a traceback.
 from .impl import excepthooks as _excepthooks  # noqa: F401
 from .signals import SignalHandlerOptions, install_signal_handlers, uninstall_signal_handlers
-from .utilities import get_default_context, ok
+from .utilities import get_default_context, get_rmw_implementation_identifier, ok
 from .utilities import shutdown as _shutdown
 from .utilities import try_shutdown as _try_shutdown
 
@@ -328,7 +328,6 @@ _ALSO_HERE = {
     "Future": "task",
     "Parameter": "parameter",
     "QoSProfile": "qos",
-    "get_rmw_implementation_identifier": "utilities",
     "qos_profile_rosout_default": "qos",
 }
 

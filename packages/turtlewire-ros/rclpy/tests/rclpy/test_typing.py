@@ -44,6 +44,7 @@ class Talker(Node):
         try:
             there = self.buffer.lookup_transform("a", "b", Time(), timeout=Duration(seconds=1))
             self.get_logger().info(f"{there.transform.translation.x + 1.0}")
+            self.get_logger().info(rclpy.get_rmw_implementation_identifier())
         except TransformException as error:
             self.get_logger().info(str(error), throttle_duration_sec=1.0)
 
