@@ -15,6 +15,7 @@ from launch.events.process import ProcessStdin
 from launch_ros.actions.node import Node, NodeActionExtension, get_extensions
 from launch_ros.utilities.to_parameters_list import is_node_name_matched
 from rosbag2_py import MessageOrder, Player, PlayOptions, StorageOptions
+from std_msgs.msg import String
 from turtlewire import errors, geometry, msg, testing
 from turtlewire.bag import (
     Bag,
@@ -137,7 +138,14 @@ def record(path: Path, message: msg.Message) -> TransformReport | None:
         names(bag)
         for each in bag.messages(["/chatter"], types=None, start_ns=bag.start_ns):
             one: BagMessage = each
-            print(one.topic, one.type, one.log_time_ns, one.publish_time_ns, one.decode(), one.data)
+            print(
+                one.topic,
+                one.type,
+                one.log_time_ns,
+                one.publish_time_ns,
+                one.decode().data,
+                one.data,
+            )
             print(one.upgraded_data(), msg.missing_fields(one.decode()))
         columns: Columns = bag.columns("/imu", "linear_acceleration.x", "orientation", end_ns=9)
         x: NDArray[Any] = columns["linear_acceleration.x"]
@@ -210,7 +218,9 @@ def encode(folder: str) -> bytes:
     service: type[msg.Service[Any, Any]] = msg.get_service("std_srvs/srv/SetBool")
     action: type[msg.Action[Any, Any, Any]] = msg.get_action("turtlesim/action/RotateAbsolute")
     impl: type[msg.ActionImpl] = msg.get_action("turtlesim/action/RotateAbsolute").Impl
-    data = msg.serialize(cls(data="hi"))
+    data = msg.serialize(msg.get_message("std_msgs/msg/String")(data="hi"))
+    print(msg.get_message("geometry_msgs/msg/Twist")().linear.x)
+    print(msg.deserialize("std_msgs/msg/String", data).data.upper())
     again = msg.deserialize(cls, memoryview(data), arrays=True)
     named = msg.deserialize("std_msgs/msg/String", data)
     print(
@@ -229,7 +239,9 @@ def encode(folder: str) -> bytes:
 async def listen() -> None:
     async with turtlewire.connect("one", namespace="/r1", domain_id=3, middleware="local") as net:
         async for message in net.subscribe("pose"):
-            print(message)
+            print(message.pose.position.x)
+        async for text in net.subscribe("text", String):
+            print(text.data.upper())
 
 
 def talk(net: Connection) -> None:
@@ -241,6 +253,8 @@ def talk(net: Connection) -> None:
     if speaker.wait_for_subscribers(1, timeout_ns=SECOND):
         speaker.publish(data="hi")
         speaker.publish(speaker.type())
+    typed: Publisher[String] = net.publisher("/text", String)
+    typed.publish(typed.type(data="hi"))
     for message in heard:
         print(message, heard.latest(), heard.dropped, heard.topic, net.topics(), net.name)
         heard.close()

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import turtlewire
+from std_msgs.msg import Bool, String
 from turtlewire import errors, geometry, msg, testing
 from turtlewire.bag import BagWriter, open_bag
 from turtlewire.msg import deserialize_rows  # no
@@ -99,6 +100,8 @@ def talk(net: Connection) -> None:
     net.publisher("/chatter")  # no
     net.publisher("/chatter", 5)  # no
     net.publisher("/chatter", "std_msgs/msg/String").publish(1)  # no
+    net.publisher("/chatter", String).publish(Bool())  # no
+    next(net.subscribe("/chatter", String)).dta  # no
     net.transforms(cache_time_ns=10.0)  # no
     net.send_transform("map", "base", 1.5, (0, 0, 0))  # no
     turtlewire.connect(domain_id="3")  # no

@@ -225,7 +225,7 @@ class _ServiceRequests:
         if len(data) > 4 and data[4] != self._kind:  # the event's kind is its first byte
             return
         event = deserialize(get_message(event_type), data)
-        requests = event.request  # type: ignore[attr-defined]  # each event type has it
+        requests = event.request  # each event type has it
         if not requests:
             self._tell(
                 client.service,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Protocol
 
 from turtlewire.bag.mcap_records import Schema
 from turtlewire.call_errors import hint_at
@@ -12,7 +12,6 @@ from turtlewire.errors import InterfaceError
 if TYPE_CHECKING:
     from turtlewire.bag.mcap_records import Channel
     from turtlewire.bag.metadata import TopicInfo
-    from turtlewire.msg import Message
 
 __all__ = [
     "BagChannel",
@@ -53,9 +52,10 @@ class BagMessage(NamedTuple):
     publish_time_ns: int
     data: bytes
 
-    def decode(self) -> Message:
+    def decode(self) -> Any:
         """Return the message object.
 
+        Its class is not known to type checkers; annotate it: ``odom: Odometry = message.decode()``.
         It is of the class that `turtlewire.msg.get_message` returns. If the bag defines the type
         otherwise, its definition decodes the bytes; `turtlewire.msg.missing_fields` returns the
         fields that it does not have.
@@ -89,7 +89,7 @@ class BagMessage(NamedTuple):
 class MessageType(Protocol):
     """The type of a topic's messages, as the bag defines it."""
 
-    def decode(self, data: bytes) -> Message:
+    def decode(self, data: bytes) -> Any:
         """Return the object of a message; see `BagMessage.decode`."""
 
     def upgrade(self, data: bytes) -> bytes:
@@ -124,7 +124,7 @@ class UndecodableType:
     def __init__(self, topic: str, type_name: str, encoding: str, reason: str = "") -> None:
         self._error = (topic, type_name, encoding, reason)
 
-    def decode(self, _data: bytes) -> Message:
+    def decode(self, _data: bytes) -> NoReturn:
         """Raise `InterfaceError` that names the encoding."""
         raise self._failure()
 

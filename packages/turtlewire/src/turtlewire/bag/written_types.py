@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import Any
 
 from turtlewire.bag.definitions import has_interface, learn_types, parse_definition
 from turtlewire.errors import CdrError, InterfaceError
@@ -14,9 +14,6 @@ from turtlewire.msg.evolution import Evolution, differs, older_evolution
 from turtlewire.msg.message import missing_fields
 from turtlewire.msg.parser import without_comment
 from turtlewire.msg.registry import load_message
-
-if TYPE_CHECKING:
-    from turtlewire.msg.message import Message
 
 __all__ = ["WrittenType", "ros2_definition", "written_type"]
 
@@ -85,7 +82,7 @@ class WrittenType:
             ) from error
         return None
 
-    def decode(self, data: bytes) -> Message:
+    def decode(self, data: bytes) -> Any:
         """Return a message as an object of our type.
 
         Raises:

@@ -6,16 +6,15 @@ import struct
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from turtlewire.errors import CdrError
 from turtlewire.msg.classes import get_message, type_name
-from turtlewire.msg.message import Message
+from turtlewire.msg.message import Message, MessageT
 
 if TYPE_CHECKING:
     from turtlewire.msg.values import Cdr
 
-_MessageT = TypeVar("_MessageT", bound=Message)
 
 _LITTLE_ENDIAN = b"\x00\x01"
 _BIG_ENDIAN = b"\x00\x00"
@@ -67,15 +66,15 @@ def _shown(value: object) -> str:
 
 @overload
 def deserialize(
-    interface: type[_MessageT], data: bytes | bytearray | memoryview, *, arrays: bool = False
-) -> _MessageT: ...
+    interface: type[MessageT], data: bytes | bytearray | memoryview, *, arrays: bool = False
+) -> MessageT: ...
 @overload
 def deserialize(
     interface: str, data: bytes | bytearray | memoryview, *, arrays: bool = False
-) -> Message: ...
+) -> Any: ...
 def deserialize(
     interface: type[Message] | str, data: bytes | bytearray | memoryview, *, arrays: bool = False
-) -> Message:
+) -> Any:
     """Decode a message.
 
     Args:

@@ -95,8 +95,8 @@ class Action(Generic[_GoalT, _ResultT, _FeedbackT], metaclass=_PartsOnDemand):
         raise NotImplementedError("Action classes can not be instantiated")
 
 
-def get_message(name: str) -> type[Message]:
-    """Class of a message.
+def get_message(name: str) -> type[Any]:
+    """Class of a message, a subclass of `Message`; a type checker does not know its fields.
 
     Args:
         name: ``"geometry_msgs/msg/Twist"`` or ``"geometry_msgs/Twist"``; parts of services and
@@ -387,7 +387,7 @@ def _reduce(message: Message) -> tuple[Any, ...]:
     return _restore, (message._TYPE_NAME, values)
 
 
-def _restore(full_name: str, values: dict[str, Any]) -> Message:
+def _restore(full_name: str, values: dict[str, Any]) -> Any:
     """Unpickle or copy.
 
     Finds the class by its name, so that no ROS-named package needs to be importable.

@@ -191,7 +191,8 @@ class Evolution:
         return found
 
     def _new_message(self, ours: str, theirs: str) -> tuple[Any, tuple[str, ...], Any]:
-        cls, definition = get_message(ours), self._records.definition(theirs)
+        cls: type[Message] = get_message(ours)
+        definition = self._records.definition(theirs)
         their_fields = {field.name.lower(): field for field in definition.fields}
         their_fields |= {field.name: field for field in definition.fields}
         steps: list[tuple[str, Any]] = []

@@ -61,7 +61,7 @@ def message_from_values(type_name: str, values: Any) -> Message:
 def _message(type_name: str, values: Any, path: str) -> Message:
     if not isinstance(values, dict):
         raise CdrError(f"{path}: expected an object, got {_shown(values)}")
-    message = get_message(type_name)()
+    message: Message = get_message(type_name)()
     types = {field.name: field.type for field in message._DEFINITION.fields}
     for name, value in values.items():
         if name not in types:

@@ -9,9 +9,18 @@ from turtlewire.msg.types import Array
 from turtlewire.msg.values import element_code
 
 if TYPE_CHECKING:
+    from typing_extensions import TypeVar
+
     from turtlewire.msg.definition import MessageDefinition
     from turtlewire.msg.types import AbstractType
     from turtlewire.msg.values import Cdr
+
+    #: A class of messages. Its default makes ``Publisher`` without brackets a valid annotation.
+    MessageT = TypeVar("MessageT", bound="Message", default=Any)
+else:  # the default came with Python 3.13
+    from typing import TypeVar
+
+    MessageT = TypeVar("MessageT")
 
 
 class _FieldTypes:

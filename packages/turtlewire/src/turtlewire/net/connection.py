@@ -6,7 +6,7 @@ import asyncio
 import threading
 from collections.abc import Sequence
 from types import TracebackType
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from turtlewire import msg, wire
 from turtlewire.call_errors import explain_call, explain_calls, hint_at
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from turtlewire.msg.message import MessageT
     from turtlewire.tf.datetimes import Span, Stamp
 
     class Closes(Protocol):
@@ -173,6 +174,14 @@ class Connection:
 
     # -- topics
 
+    @overload
+    def publisher(
+        self, topic: str, type: type[MessageT], *, qos: QoS | None = None
+    ) -> Publisher[MessageT]: ...
+    @overload
+    def publisher(
+        self, topic: str, type: str, *, qos: QoS | None = None
+    ) -> Publisher[msg.Message]: ...
     def publisher(
         self,
         topic: str,
@@ -203,6 +212,14 @@ class Connection:
         )
         return self._keep(Publisher(publisher, self._context.graph, kind, self._forget))
 
+    @overload
+    def subscribe(
+        self, topic: str, type: type[MessageT], *, qos: QoS | None = None
+    ) -> Subscription[MessageT]: ...
+    @overload
+    def subscribe(
+        self, topic: str, type: str | None = None, *, qos: QoS | None = None
+    ) -> Subscription: ...
     def subscribe(
         self,
         topic: str,
@@ -317,7 +334,7 @@ def _span_or_none(value: Span | None, name: str) -> int | None:
     return None if value is None else as_nanoseconds(value, name)
 
 
-def _message_type(topic: object, given: object, caller: str) -> type[msg.Message]:
+def _message_type(topic: object, given: object, caller: str) -> type[Any]:
     """Return the class of the messages of a topic, by itself or by its name.
 
     Args:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic
 
 from turtlewire import msg
 from turtlewire.call_errors import explain_calls, near_name
+from turtlewire.msg.message import MessageT
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.datetimes import as_nanoseconds
 from turtlewire.tf.listener import QOS, STATIC_QOS, STATIC_TOPIC, TOPIC, TYPE_NAME
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @explain_calls
-class Publisher:
+class Publisher(Generic[MessageT]):
     """Publishes messages of one type on one topic. Thread-safe.
 
     Attributes:
@@ -31,8 +32,8 @@ class Publisher:
         self,
         publisher: base.Publisher,
         graph: base.Graph,
-        message_type: type[msg.Message],
-        on_close: Callable[[Publisher], None],
+        message_type: type[MessageT],
+        on_close: Callable[[Publisher[MessageT]], None],
     ) -> None:
         self._publisher = publisher
         self._graph = graph
@@ -40,7 +41,7 @@ class Publisher:
         self.topic: str = publisher.topic
         self.type = message_type
 
-    def publish(self, message: msg.Message | None = None, /, **fields: Any) -> None:
+    def publish(self, message: MessageT | None = None, /, **fields: Any) -> None:
         """Send a message, or one with these fields.
 
         Raises:

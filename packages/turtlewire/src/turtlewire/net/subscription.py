@@ -7,11 +7,12 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from types import TracebackType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic
 
 from turtlewire import msg
 from turtlewire.call_errors import hint_at
 from turtlewire.errors import InterfaceError
+from turtlewire.msg.message import MessageT
 from turtlewire.wake_up import LoopWakeUp, WakeUp
 from turtlewire.wire.base import TypeId
 from turtlewire.wire.conflicts import warn_of_types
@@ -37,7 +38,7 @@ _FITTING = QoS(
         "callback add_callback on_message": "`for message in subscription`; there are no callbacks",
     }
 )
-class Subscription:
+class Subscription(Generic[MessageT]):
     """The messages of one topic: iterate with ``for`` on any thread, or with ``async for``.
 
     It keeps as many messages as the depth of its QoS; a newer one drops the oldest. Iterations end
@@ -53,9 +54,9 @@ class Subscription:
         context: base.Context,
         node: base.Node,
         topic: str,
-        message_type: type[msg.Message] | None,
+        message_type: type[MessageT] | None,
         qos: QoS | None,
-        on_close: Callable[[Subscription], None],
+        on_close: Callable[[Subscription[MessageT]], None],
     ) -> None:
         self._on_close = on_close
         self._context = context
@@ -101,7 +102,7 @@ class Subscription:
         )
         self._begin(message_type, self._qos or fitting)
 
-    def _begin(self, message_type: type[msg.Message], qos: QoS) -> None:
+    def _begin(self, message_type: type[MessageT], qos: QoS) -> None:
         name = msg.type_name(message_type)
         self._type = message_type
         self._wire = self._node.create_subscription(
@@ -143,11 +144,11 @@ class Subscription:
         with self._lock:
             self._waits.discard(wake)
 
-    def _decoded(self, cdr: bytes) -> msg.Message:
+    def _decoded(self, cdr: bytes) -> MessageT:
         assert self._type is not None
         return msg.deserialize(self._type, cdr)
 
-    def latest(self) -> msg.Message | None:
+    def latest(self) -> MessageT | None:
         """Return the newest message, also one that was read before; None before the first."""
         newest = self._newest
         return None if newest is None else self._decoded(newest)
@@ -155,7 +156,7 @@ class Subscription:
     def __iter__(self) -> Self:
         return self
 
-    def __next__(self) -> msg.Message:
+    def __next__(self) -> MessageT:
         changed = WakeUp()
         wake = changed.set
         try:
@@ -168,7 +169,7 @@ class Subscription:
     def __aiter__(self) -> Self:
         return self
 
-    async def __anext__(self) -> msg.Message:
+    async def __anext__(self) -> MessageT:
         changed = LoopWakeUp(asyncio.get_running_loop())
         wake = changed.set
         try:

@@ -194,7 +194,7 @@ async def _delivered(publisher: Publisher) -> None:
 
 async def _call(
     network: Network, service: str, type_name: str, request: msg.Message, limit_s: float
-) -> msg.Message:
+) -> Any:
     """Return the response of a service.
 
     Args:
