@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import distributions
 import pytest
 
 FOLDER = Path(__file__).parent / "typed"
@@ -54,6 +55,15 @@ def test_each_wrong_line_is_refused(refused):
     wrong = {number for number, line in enumerate(lines, 1) if line.endswith("# no")}
     assert len(wrong) > 70
     assert refused["wrong_uses.py"].keys() == wrong, refused["wrong_uses.py"]
+
+
+def test_each_package_says_that_it_has_types():
+    """The build adds the file to the packages of ROS 2."""
+    folders = [
+        folder for folder in distributions.packages() if distributions.ROS not in folder.parents
+    ]
+    assert len(folders) > 5
+    assert [folder for folder in folders if not (folder / "py.typed").exists()] == []
 
 
 def used():
