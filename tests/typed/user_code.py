@@ -16,6 +16,12 @@ from launch_ros.actions.node import Node, NodeActionExtension, get_extensions
 from launch_ros.utilities.to_parameters_list import is_node_name_matched
 from rosbag2_py import MessageOrder, Player, PlayOptions, StorageOptions
 from std_msgs.msg import String
+from tf_transformations import (
+    quaternion_about_axis,
+    quaternion_matrix,
+    quaternion_multiply,
+    quaternion_slerp,
+)
 from turtlewire import errors, geometry, msg, testing
 from turtlewire.bag import (
     Bag,
@@ -329,6 +335,14 @@ def extended(logger: logging.Logger) -> dict[str, Any]:
 def answered(process: ExecuteProcess) -> EmitEvent:
     details = process.process_details or {}
     return EmitEvent(event=ProcessStdin(text=b"y\n", action=process, **details))
+
+
+def turned(net: Connection, angle: float) -> NDArray[np.float64]:
+    turn = quaternion_multiply(quaternion_about_axis(angle, np.array([0, 0, 1])), [0, 0, 0, 1])
+    net.send_static_transform("map", "base", np.zeros(3, np.float32), np.asarray(turn))
+    turtlewire.Transform("a", "b", np.zeros(3), quaternion_slerp(np.array(turn), turn, 0.5))
+    matrix: NDArray[np.float64] = quaternion_matrix(np.array(turn))
+    return matrix
 
 
 def play(paths: list[str]) -> bool:

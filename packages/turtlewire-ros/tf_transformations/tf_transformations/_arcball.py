@@ -15,10 +15,12 @@ from ._quaternions import EPSILON, quaternion_multiply
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from turtlewire.geometry.quaternions import Numbers
+
     Vector = NDArray[np.float64]
 
 
-def arcball_map_to_sphere(point: Sequence[float], center: Sequence[float], radius: float) -> Vector:
+def arcball_map_to_sphere(point: Numbers, center: Numbers, radius: float) -> Vector:
     """Return the unit vector on the ball under a window position (y down).
 
     Positions outside the ball go to its rim.
@@ -74,13 +76,13 @@ class Arcball:
             raise ValueError("initial not a quaternion or matrix.")
         self._pressed_at = np.array([0.0, 0.0, 1.0])
         self._pressed = self._previous = self._now = unit_vector(orientation)
-        self._center: Sequence[float] = (0.0, 0.0)
+        self._center: Numbers = (0.0, 0.0)
         self._radius = 1.0
         self._axes: list[Vector] | None = None
         self._axis: ArrayLike | None = None
         self._constrain = False
 
-    def place(self, center: Sequence[float], radius: float) -> None:
+    def place(self, center: Numbers, radius: float) -> None:
         """Put the ball at ``center`` of the window, with ``radius``, both in pixels."""
         self._center = center
         self._radius = float(radius)
@@ -97,7 +99,7 @@ class Arcball:
         """Return True if constrained rotation is on."""
         return self._constrain
 
-    def down(self, point: Sequence[float]) -> None:
+    def down(self, point: Numbers) -> None:
         """Press the mouse at a window position."""
         self._pressed_at = arcball_map_to_sphere(point, self._center, self._radius)
         self._pressed = self._previous = self._now
@@ -107,7 +109,7 @@ class Arcball:
         if self._axis is not None:
             self._pressed_at = arcball_constrain_to_axis(self._pressed_at, self._axis)
 
-    def drag(self, point: Sequence[float]) -> None:
+    def drag(self, point: Numbers) -> None:
         """Move the pressed mouse to a window position."""
         here = arcball_map_to_sphere(point, self._center, self._radius)
         if self._axis is not None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +13,8 @@ from ._quaternions import EPSILON
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+
+    from turtlewire.geometry.quaternions import Numbers
 
 
 def vector_norm(
@@ -51,7 +52,7 @@ def random_vector(size: int | tuple[int, ...]) -> Any:
     return np.random.random(size)  # noqa: NPY002
 
 
-def random_quaternion(rand: Sequence[float] | None = None) -> NDArray[np.float64]:
+def random_quaternion(rand: Numbers | None = None) -> NDArray[np.float64]:
     """Return a unit quaternion ``(x, y, z, w)``, uniform over all rotations.
 
     ``rand`` may give the three numbers in [0, 1) to make it of.
@@ -70,14 +71,14 @@ def random_quaternion(rand: Sequence[float] | None = None) -> NDArray[np.float64
     )
 
 
-def random_rotation_matrix(rand: Sequence[float] | None = None) -> NDArray[np.float64]:
+def random_rotation_matrix(rand: Numbers | None = None) -> NDArray[np.float64]:
     """Return the rotation matrix of :func:`random_quaternion`."""
     return quaternion_matrix(random_quaternion(rand).tolist())
 
 
 def quaternion_slerp(
-    quat0: Sequence[float],
-    quat1: Sequence[float],
+    quat0: Numbers,
+    quat1: Numbers,
     fraction: float,
     spin: int = 0,
     shortestpath: bool = True,

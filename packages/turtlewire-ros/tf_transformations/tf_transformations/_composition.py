@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +24,7 @@ from ._quaternions import (
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from turtlewire.geometry.quaternions import Quaternion
+    from turtlewire.geometry.quaternions import Numbers, Quaternion
 
     from ._matrices import Matrix
     from ._quaternions import Axes
@@ -44,7 +43,7 @@ def euler_from_matrix(matrix: ArrayLike, axes: Axes = "sxyz") -> tuple[float, fl
     return euler_from_rotation(np.asarray(matrix, dtype=np.float64)[:3, :3].tolist(), axes)
 
 
-def quaternion_matrix(quaternion: Sequence[float]) -> Matrix:
+def quaternion_matrix(quaternion: Numbers) -> Matrix:
     """Return the rotation matrix of a quaternion, which need not be normalised."""
     return affine_matrix(rotation_from_quaternion(quaternion))
 
@@ -106,11 +105,11 @@ def decompose_matrix(
 
 
 def compose_matrix(
-    scale: Sequence[float] | None = None,
-    shear: Sequence[float] | None = None,
-    angles: Sequence[float] | None = None,
-    translate: Sequence[float] | None = None,
-    perspective: Sequence[float] | None = None,
+    scale: Numbers | None = None,
+    shear: Numbers | None = None,
+    angles: Numbers | None = None,
+    translate: Numbers | None = None,
+    perspective: Numbers | None = None,
 ) -> Matrix:
     """Scale, then shear, rotate (Euler angles ``sxyz``), move and apply a perspective."""
     linear = np.diag(ZOOM_IDENTITY if scale is None else [float(factor) for factor in scale])
@@ -129,7 +128,7 @@ def compose_matrix(
     return normalized
 
 
-def orthogonalization_matrix(lengths: Sequence[float], angles: Sequence[float]) -> Matrix:
+def orthogonalization_matrix(lengths: Numbers, angles: Numbers) -> Matrix:
     """Return the matrix from crystallographic to Cartesian coordinates.
 
     The cell has three ``lengths``, and three ``angles`` in degrees.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +13,8 @@ from ._quaternions import (
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+
+    from turtlewire.geometry.quaternions import Numbers
 
     Matrix = NDArray[np.float64]
 
@@ -62,7 +63,7 @@ def identity_matrix() -> Matrix:
     return np.identity(4)
 
 
-def translation_matrix(direction: Sequence[float]) -> Matrix:
+def translation_matrix(direction: Numbers) -> Matrix:
     """Return the matrix that moves by ``direction`` (three numbers, metres)."""
     return affine_matrix(ROTATION_IDENTITY, direction)
 
@@ -72,7 +73,7 @@ def translation_from_matrix(matrix: ArrayLike) -> Matrix:
     return np.array(matrix, dtype=np.float64)[:3, 3]
 
 
-def reflection_matrix(point: Sequence[float], normal: Sequence[float]) -> Matrix:
+def reflection_matrix(point: Numbers, normal: Numbers) -> Matrix:
     """Return the matrix that mirrors at the plane through ``point`` with ``normal``."""
     unit = _unit(normal)
     return affine_matrix(
@@ -96,9 +97,7 @@ def reflection_from_matrix(matrix: ArrayLike) -> tuple[Matrix, Matrix]:
     return _fixed_point(array)[:3], normals[0]
 
 
-def rotation_matrix(
-    angle: float, direction: Sequence[float], point: Sequence[float] | None = None
-) -> Matrix:
+def rotation_matrix(angle: float, direction: Numbers, point: Numbers | None = None) -> Matrix:
     """Return the rotation by ``angle`` [rad] about ``direction``, through ``point`` if given."""
     x, y, z = axis = _unit(direction)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
@@ -142,7 +141,7 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix]:
 
 
 def scale_matrix(
-    factor: float, origin: Sequence[float] | None = None, direction: Sequence[float] | None = None
+    factor: float, origin: Numbers | None = None, direction: Numbers | None = None
 ) -> Matrix:
     """Return the matrix that scales by ``factor`` from ``origin``, in all directions or in one.
 
@@ -173,10 +172,10 @@ def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Matrix, Matrix | None]:
 
 
 def projection_matrix(
-    point: Sequence[float],
-    normal: Sequence[float],
-    direction: Sequence[float] | None = None,
-    perspective: Sequence[float] | None = None,
+    point: Numbers,
+    normal: Numbers,
+    direction: Numbers | None = None,
+    perspective: Numbers | None = None,
     pseudo: bool = False,
 ) -> Matrix:
     """Return the matrix that projects onto the plane through ``point`` with ``normal``.
@@ -270,9 +269,7 @@ def clip_matrix(
     return matrix
 
 
-def shear_matrix(
-    angle: float, direction: Sequence[float], point: Sequence[float], normal: Sequence[float]
-) -> Matrix:
+def shear_matrix(angle: float, direction: Numbers, point: Numbers, normal: Numbers) -> Matrix:
     """Return the matrix that shears by ``angle`` [rad] along ``direction``.
 
     The plane through ``point`` with ``normal`` stays where it is.

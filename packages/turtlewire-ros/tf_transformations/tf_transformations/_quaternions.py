@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from turtlewire.geometry import quaternions
 
 if TYPE_CHECKING:
-    from turtlewire.geometry.quaternions import Quaternion
+    from turtlewire.geometry.quaternions import Numbers, Quaternion
 
     #: ``"sxyz"``, or the numbers (inner axis, parity, repetition, frame) that stand for it.
     Axes = str | Sequence[int]
@@ -91,7 +91,7 @@ def euler_from_rotation(
     return angles[::-1] if rotating else angles
 
 
-def rotation_from_quaternion(quaternion: Sequence[float]) -> tuple[tuple[float, float, float], ...]:
+def rotation_from_quaternion(quaternion: Numbers) -> tuple[tuple[float, float, float], ...]:
     """Return the three rows of the rotation matrix.
 
     The quaternion need not be normalised; zero means no rotation.
@@ -104,19 +104,19 @@ def rotation_from_quaternion(quaternion: Sequence[float]) -> tuple[tuple[float, 
     return rows[:3], rows[3:6], rows[6:]
 
 
-def quaternion_conjugate(quaternion: Sequence[float]) -> Quaternion:
+def quaternion_conjugate(quaternion: Numbers) -> Quaternion:
     """Return the opposite rotation of a unit quaternion."""
     return quaternions.conjugate(quaternion)
 
 
-def quaternion_inverse(quaternion: Sequence[float]) -> Quaternion:
+def quaternion_inverse(quaternion: Numbers) -> Quaternion:
     """Return the quaternion whose product with this one is ``(0, 0, 0, 1)``, normalised or not."""
     x, y, z, w = quaternion
     norm = x * x + y * y + z * z + w * w
     return -x / norm, -y / norm, -z / norm, w / norm
 
 
-def quaternion_about_axis(angle: float, axis: Sequence[float]) -> Quaternion:
+def quaternion_about_axis(angle: float, axis: Numbers) -> Quaternion:
     """Return the rotation by ``angle`` [rad] about ``axis`` (of any length but zero)."""
     x, y, z = axis
     scale = math.sin(angle / 2.0) / math.sqrt(x * x + y * y + z * z)
@@ -155,9 +155,7 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") 
     return product
 
 
-def euler_from_quaternion(
-    quaternion: Sequence[float], axes: Axes = "sxyz"
-) -> tuple[float, float, float]:
+def euler_from_quaternion(quaternion: Numbers, axes: Axes = "sxyz") -> tuple[float, float, float]:
     """Return the angles [rad] about the three axes of ``axes``.
 
     Roll, pitch and yaw by default. The quaternion need not be normalised.

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from typing_extensions import Buffer as AnyBuffer
 
 from turtlewire.errors import TransformException
+from turtlewire.geometry.quaternions import Numbers
 from turtlewire.tf.answers import FramePoses, Samples
 from turtlewire.tf.datetimes import Span, Stamp
 
@@ -23,8 +24,8 @@ class Transform:
         cls,
         target_frame: str,
         source_frame: str,
-        translation: Sequence[float],
-        rotation: Sequence[float] = ...,
+        translation: Numbers,
+        rotation: Numbers = ...,
         *,
         stamp_ns: Stamp | None = None,
     ) -> Transform: ...
@@ -73,8 +74,8 @@ class Buffer:
         parent_frame: str,
         child_frame: str,
         stamp_ns: Stamp,
-        translation: Sequence[float],
-        rotation: Sequence[float] = ...,
+        translation: Numbers,
+        rotation: Numbers = ...,
         *,
         sender: str = "default_authority",
     ) -> None: ...
@@ -82,8 +83,8 @@ class Buffer:
         self,
         parent_frame: str,
         child_frame: str,
-        translation: Sequence[float],
-        rotation: Sequence[float] = ...,
+        translation: Numbers,
+        rotation: Numbers = ...,
         *,
         sender: str = "default_authority",
     ) -> None: ...
@@ -92,8 +93,8 @@ class Buffer:
         parent_frame: str,
         child_frame: str,
         stamp_ns: Stamp,
-        translation: Sequence[float],
-        rotation: Sequence[float],
+        translation: Numbers,
+        rotation: Numbers,
         static: bool,
         sender: str,
     ) -> str: ...

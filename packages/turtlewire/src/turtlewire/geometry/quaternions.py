@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from typing import Any
+
+    from numpy.typing import NDArray
+
+    #: Numbers, one after the other; an array has the shape ``(n,)``.
+    Numbers: TypeAlias = Sequence[float] | NDArray[Any]
 
 __all__ = [
     "Matrix",
@@ -29,7 +37,7 @@ Matrix: TypeAlias = tuple[float, float, float, float, float, float, float, float
 _NO_NUMBERS: Quaternion = (math.nan, math.nan, math.nan, math.nan)
 
 
-def multiply(quaternion1: Sequence[float], quaternion0: Sequence[float]) -> Quaternion:
+def multiply(quaternion1: Numbers, quaternion0: Numbers) -> Quaternion:
     """Return the Hamilton product: the rotation ``quaternion0``, followed by ``quaternion1``."""
     # ROS 2's names of the parameters: the function is also tf_transformations.quaternion_multiply.
     ax, ay, az, aw = quaternion1
@@ -42,7 +50,7 @@ def multiply(quaternion1: Sequence[float], quaternion0: Sequence[float]) -> Quat
     )
 
 
-def conjugate(q: Sequence[float]) -> Quaternion:
+def conjugate(q: Numbers) -> Quaternion:
     """Return the opposite rotation."""
     return (-q[0], -q[1], -q[2], q[3])
 
@@ -88,7 +96,7 @@ def to_rpy(q: Quaternion) -> Vector:
     return roll, pitch, yaw
 
 
-def matrix(q: Sequence[float]) -> Matrix:
+def matrix(q: Numbers) -> Matrix:
     """Return the rotation matrix of a quaternion of any length but zero.
 
     Raises:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from turtlewire.geometry.quaternions import Numbers
     from turtlewire.msg.message import MessageT
     from turtlewire.tf.datetimes import Span, Stamp
 
@@ -146,8 +146,8 @@ class Connection:
         parent_frame: str,
         child_frame: str,
         stamp_ns: Stamp,
-        translation: Sequence[float],
-        rotation: Sequence[float] = _NO_TURN,
+        translation: Numbers,
+        rotation: Numbers = _NO_TURN,
     ) -> None:
         """Publish a transform; the arguments are the same as for `Buffer.set_transform`.
 
@@ -161,8 +161,8 @@ class Connection:
         self,
         parent_frame: str,
         child_frame: str,
-        translation: Sequence[float],
-        rotation: Sequence[float] = _NO_TURN,
+        translation: Numbers,
+        rotation: Numbers = _NO_TURN,
     ) -> None:
         """Publish a transform that holds at all times, also for nodes that join later.
 
