@@ -19,6 +19,7 @@ from turtle_class.grading import grade_all, students_in
 from turtle_class.pages import as_junit, overview, student_page
 from turtle_class.runner import Limits
 from turtle_lesson.lesson import load_lesson
+from turtlewire.new_file import new_file
 from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:
@@ -155,8 +156,7 @@ def start(folder: Path, names: Sequence[str]) -> None:
     if there:
         raise ClassError(f"{printable(str(there[0]))} exists already; nothing was written")
     for path, text in wanted.items():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+        _write(path, text)
     count = len({path.parent for path in wanted})
     print(f"{count} exercise{'' if count == 1 else 's'} in {printable(str(folder))}")  # noqa: T201
 
@@ -183,8 +183,7 @@ def check(folder: Path, names: Sequence[str], limit_s: float, junit: Path | None
     [report] = grade_all([folder.resolve()], wanted, Limits(seconds=limit_s), _progress)
     _progress("")
     if junit is not None:
-        junit.parent.mkdir(parents=True, exist_ok=True)
-        junit.write_text(as_junit(report), encoding="utf-8")
+        _write(junit, as_junit(report))
     for line in _lines(report):
         print(line)  # noqa: T201
     return 0 if report.passed == len(report.outcomes) else 1
@@ -214,18 +213,23 @@ def grade(folder: Path, names: Sequence[str], limit_s: float, output: Path) -> N
         raise ClassError(f"{printable(str(output))} is not a folder for the reports")
     reports = grade_all(students, wanted, Limits(seconds=limit_s), _progress)
     _progress("")
-    (output / "junit").mkdir(parents=True, exist_ok=True)
     when = time.strftime("%Y-%m-%d %H:%M")
     for report in reports:
         page = student_page(report, when)
-        (output / f"{report.slug}.html").write_text(page, encoding="utf-8")
-        (output / "junit" / f"{report.slug}.xml").write_text(as_junit(report), encoding="utf-8")
+        _write(output / f"{report.slug}.html", page)
+        _write(output / "junit" / f"{report.slug}.xml", as_junit(report))
     title = f"Exercises of {folder.resolve().name}"
-    (output / "index.html").write_text(overview(reports, title, when), encoding="utf-8")
+    _write(output / "index.html", overview(reports, title, when))
     width = max(len(report.student) for report in reports)
     for report in reports:
         print(f"{report.student:{width}}  {report.passed} of {len(wanted)} solved")  # noqa: T201
     print(f"The reports are at {printable(str(output / 'index.html'))}")  # noqa: T201
+
+
+def _write(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with new_file(path) as unfinished, open(unfinished, "w", encoding="utf-8") as file:
+        file.write(text)
 
 
 def show(domains: str, roster: Path | None, port: int | None, *, lan: bool) -> None:

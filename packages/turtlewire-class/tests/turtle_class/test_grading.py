@@ -10,6 +10,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
+from tests.disks import full_disk
 from tests.places import TURTLEWIRE
 
 from turtle_class import runner, supervise
@@ -285,6 +286,18 @@ def test_reports_are_not_a_student_the_next_time(tmp_path, monkeypatch, capsys):
         assert main(["class", "grade", ".", "-e", "static"]) == 0
         told = capsys.readouterr().out
         assert told == "ana  0 of 1 solved\nThe reports are at reports/index.html\n"
+
+
+def test_a_full_disk_leaves_the_older_report(tmp_path, monkeypatch, capsys):
+    (tmp_path / "ana").mkdir()
+    report = tmp_path / "reports" / "ana.html"
+    report.parent.mkdir()
+    report.write_text("older")
+    monkeypatch.chdir(tmp_path)
+    with full_disk():
+        assert main(["class", "grade", ".", "-e", "static"]) == 2
+    assert "reports/ana.html" in capsys.readouterr().err
+    assert report.read_text() == "older"
 
 
 def test_report_files_keep_the_letters_of_names(tmp_path):

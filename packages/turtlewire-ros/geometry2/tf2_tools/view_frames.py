@@ -18,6 +18,7 @@ from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 from tf2_ros import DEFAULT_STATIC_TF_TOPIC, DEFAULT_TF_TOPIC, Buffer, TransformListener
 from tf2_tools.pdf import pdf_from_drawing
+from turtlewire.new_file import new_file
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.drawing import svg_from_drawing
 from turtlewire.tf.frame_tree import FrameLink, FrameTree, read_frame_tree
@@ -95,7 +96,7 @@ class ViewFrames(Node):
             ".svg": svg_from_drawing(drawing).encode(),
         }
         for ending, content in contents.items():
-            with open(output + ending, "wb") as file:
+            with new_file(output + ending) as unfinished, open(unfinished, "wb") as file:
                 file.write(content)
             self.get_logger().info(f"Wrote {os.path.abspath(output + ending)}")
 

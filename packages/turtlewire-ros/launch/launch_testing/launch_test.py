@@ -14,6 +14,7 @@ from launch_testing.junitxml import unittestResultsToXml
 from launch_testing.loader import LoadTestsFromPythonModule
 from launch_testing.print_arguments import print_arguments_of_launch_description
 from launch_testing.test_runner import LaunchTestRunner
+from turtlewire.new_file import new_file
 from turtlewire.program import program
 
 
@@ -91,7 +92,8 @@ def run(
         parser.error(str(error))
     if args.xmlpath:
         report = unittestResultsToXml(name=f"{package}.{name}", test_results=results)
-        report.write(args.xmlpath, encoding="utf-8", xml_declaration=True)
+        with new_file(args.xmlpath) as unfinished:
+            report.write(unfinished, encoding="utf-8", xml_declaration=True)
     for result in results.values():
         if message := getattr(result, "message", ""):
             print(f"FAILED: {message}")
@@ -106,9 +108,10 @@ def main() -> int:
 
 
 def _can_write(path: str) -> bool:
-    if os.path.exists(path):
-        return not os.path.isdir(path) and os.access(path, os.W_OK)
-    return os.access(os.path.dirname(os.path.abspath(path)), os.W_OK)
+    if os.path.exists(path) and (os.path.isdir(path) or not os.access(path, os.W_OK)):
+        return False
+    is_device = os.path.exists(path) and not os.path.isfile(path)
+    return is_device or os.access(os.path.dirname(os.path.realpath(path)), os.W_OK)
 
 
 def _imported(name: str, path: str) -> ModuleType | None:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tf2_tools.pdf import pdf_from_drawing
+from turtlewire.new_file import new_file
 from turtlewire.program import program
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.drawing import Drawing, FilledBox, Line, Text, text_width
@@ -53,11 +54,8 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _write(path: str, data: bytes) -> None:
-    try:
-        with open(path, "wb") as file:
-            file.write(data)
-    except OSError as error:  # the error of a full disk does not name the file
-        raise OSError(error.errno, error.strerror, path) from None
+    with new_file(path) as unfinished, open(unfinished, "wb") as file:
+        file.write(data)
     print(f"Created file {printable(path)}")  # noqa: T201
 
 

@@ -71,6 +71,7 @@ def _save(path: str, selection: Selection) -> int:
     from turtlewire import wire
     from turtlewire.doctor import network
     from turtlewire.doctor.setup_findings import wait_for_graph
+    from turtlewire.new_file import new_file
     from turtlewire_view.graph.files import writer_for
     from turtlewire_view.graph.picture import read_graph, select
 
@@ -78,11 +79,8 @@ def _save(path: str, selection: Selection) -> int:
     with contextlib.closing(wire.open_context()) as context:
         wait_for_graph(context.graph)
         picture = read_graph(context.graph, context.domain_id)
-    try:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(writer(picture, selection))
-    except OSError as error:  # the error of a full disk does not name the file
-        raise OSError(error.errno, error.strerror, path) from None
+    with new_file(path) as unfinished, open(unfinished, "w", encoding="utf-8") as file:
+        file.write(writer(picture, selection))
     if not picture.nodes and (others := network.other_domains(picture.domain_id)):
         print(
             f"Domain {picture.domain_id} has no nodes. This computer has nodes on "

@@ -7,6 +7,7 @@ import sys
 from xml.etree import ElementTree as ET
 
 import pytest
+from tests.disks import full_disk
 from tests.places import BIN
 from websockets.sync.client import connect
 
@@ -103,12 +104,13 @@ def test_an_empty_domain_is_said_if_others_have_nodes(monkeypatch, capsys, tmp_p
     )
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/full")
-def test_a_full_disk_is_reported_with_the_file(capsys, tmp_path):
+def test_a_full_disk_is_reported_and_leaves_the_older_file(capsys, tmp_path):
     path = tmp_path / "graph.svg"
-    path.symlink_to("/dev/full")
-    assert main(["graph", "--save", str(path)]) == 2
-    assert capsys.readouterr().err.endswith(f": {path}: No space left on device\n")
+    path.write_text("older")
+    with full_disk():
+        assert main(["graph", "--save", str(path)]) == 2
+    assert capsys.readouterr().err.endswith(f": {path}: File too large\n")
+    assert path.read_text() == "older"
 
 
 def test_a_wrong_suffix_is_refused_before_the_network_is_joined(graph, tmp_path):

@@ -14,6 +14,7 @@ module               contents
 `guarded`            calls on threads that an exception must not end
 `msg`                interface definitions, message classes, CDR and type hashes
 `net`                topics and transforms of a network: `connect`
+`new_file`           files that appear, or replace others, when they are complete
 `package_sources`    repositories of well-known packages that are missing
 `path_arguments`     paths that callers pass, and suggestions for missing ones
 `platforms`          capabilities of this platform, and the requested core

@@ -2,7 +2,6 @@
 
 import os
 import random
-import resource
 import subprocess
 import sys
 import threading
@@ -15,6 +14,7 @@ from mcap.writer import CompressionType
 from mcap.writer import Writer as McapWriter
 from rosbags.rosbag2 import Reader
 from tests.bags import START
+from tests.disks import full_disk
 
 from ros2cli.main import main
 from turtlewire.bag import BagWriter, open_bag, reindex
@@ -175,7 +175,6 @@ def test_a_whole_bag_is_not_rewritten(tmp_path):
     assert {each.name for each in (tmp_path / "bag").iterdir()} == {file.name, "metadata.yaml"}
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
 @pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
 def test_without_room_the_damaged_file_stays(tmp_path, storage, capfd):
     with BagWriter(tmp_path / "bag", storage=storage, chunk_bytes=5000) as writer:
@@ -186,12 +185,8 @@ def test_without_room_the_damaged_file_stays(tmp_path, storage, capfd):
     (file,) = (tmp_path / "bag").iterdir()
     damaged = file.read_bytes()[:-100_000]
     file.write_bytes(damaged)
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, limits[1]))
-    try:
+    with full_disk(100_000):
         assert main(["bag", "reindex", str(tmp_path / "bag")]) == 0
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert f"{file} is not repaired: [Errno " in capfd.readouterr().err
     assert file.read_bytes() == damaged
     assert {each.name for each in (tmp_path / "bag").iterdir()} == {file.name, "metadata.yaml"}

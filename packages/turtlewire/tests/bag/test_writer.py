@@ -2,10 +2,10 @@
 
 import os
 import re
-import resource
 import sqlite3
 import subprocess
 import sys
+from contextlib import ExitStack
 
 import numpy as np
 import pytest
@@ -16,6 +16,7 @@ from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
 from tests.bags import START, contents, transform, write_bag
+from tests.disks import full_disk
 
 import turtlewire
 from turtlewire import msg
@@ -378,20 +379,14 @@ def test_reading_a_running_recording_keeps_the_lock_of_its_writer(tmp_path):
         assert (tmp_path / "made" / "made_0.db3-wal").exists()
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
 def test_a_log_that_cannot_be_merged_is_an_error_in_any_folder(tmp_path):
     folder = tmp_path / "blocked"  # contains "locked", as sqlite3's error about other readers does
     folder.mkdir()
     writer = SqliteWriter(str(folder / "a.db3"), "jazzy")
     writer.write(writer.add_topic("/a", "std_msgs/msg/String", "", ""), 1, 1, bytes(300_000))
     writer.flush()
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, limits[1]))
-    try:
-        with pytest.raises(OSError, match="disk"):
-            writer.close()
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    with full_disk(100_000), pytest.raises(OSError, match="disk"):
+        writer.close()
 
 
 def test_a_closed_database_is_not_reported_as_a_fault_of_the_disk(tmp_path):
@@ -401,7 +396,6 @@ def test_a_closed_database_is_not_reported_as_a_fault_of_the_disk(tmp_path):
         writer.add_topic("/a", "std_msgs/msg/String", "", "")
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
 @pytest.mark.parametrize("way", ["mcap", "sqlite3", "sqlite3 that is read"])
 def test_without_room_to_compress_a_file_stays_as_it_is(tmp_path, way):
     storage = way.split()[0]
@@ -411,15 +405,12 @@ def test_without_room_to_compress_a_file_stays_as_it_is(tmp_path, way):
     writer.flush()
     reader = sqlite3.connect(writer.file_path if "read" in way else ":memory:")
     rows = reader.execute("SELECT * FROM sqlite_schema")  # keeps the log next to the file
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    writer.on_compress = lambda _: resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, limits[1]))
-    try:
+    with ExitStack() as disk:
+        writer.on_compress = lambda _: disk.enter_context(full_disk(100_000))
         with pytest.raises(OSError):
             writer.close()
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-        rows.close()
-        reader.close()
+    rows.close()
+    reader.close()
     name = {"mcap": "made_0.mcap", "sqlite3": "made_0.db3"}[storage]
     assert {path.name for path in (tmp_path / "made").iterdir()} == {name, "metadata.yaml"}
     with open_bag(tmp_path / "made") as bag:

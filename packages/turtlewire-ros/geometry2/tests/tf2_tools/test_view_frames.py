@@ -12,6 +12,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 import yaml
+from tests.disks import full_disk
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
@@ -188,6 +189,19 @@ def test_a_loop_is_told_and_written(monkeypatch, tmp_path, capfd):
     assert isinstance(tree.links["a"], FrameLink)
     assert '"a" -> "b"' in (tmp_path / "loop.gv").read_text()
     assert len(list(tmp_path.iterdir())) == 3
+
+
+def test_a_full_disk_leaves_the_older_file(monkeypatch, tmp_path):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    path = tmp_path / "frames.gv"
+    path.write_text("older")
+    rclpy.init(args=[])
+    try:
+        with ViewFrames() as node, full_disk(), pytest.raises(OSError, match="too large"):
+            node.write(FrameTree([]), str(tmp_path / "frames"))
+    finally:
+        rclpy.try_shutdown()
+    assert path.read_text() == "older"
 
 
 # The drawn trees.

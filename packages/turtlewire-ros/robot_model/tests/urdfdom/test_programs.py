@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from tests.disks import full_disk
 from tests.places import BIN
 
 from tests import archive, places
@@ -94,12 +95,13 @@ def test_drawings(capsys, monkeypatch, tmp_path, raft):
     assert (tmp_path / "raft.pdf").read_bytes().startswith(b"%PDF-1.4")
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/full")
-def test_a_full_disk_is_reported_with_the_file(capsys, tmp_path, raft):
+def test_a_full_disk_is_reported_and_leaves_the_older_file(capsys, tmp_path, raft):
     path = tmp_path / "raft.gv"
-    path.symlink_to("/dev/full")
-    assert urdf_to_graphviz.main(["urdf_to_graphviz", str(raft), str(tmp_path / "raft")]) == 1
-    assert capsys.readouterr().err == f"urdf_to_graphviz: {path}: No space left on device\n"
+    path.write_text("older")
+    with full_disk():
+        assert urdf_to_graphviz.main(["urdf_to_graphviz", str(raft), str(tmp_path / "raft")]) == 1
+    assert capsys.readouterr().err == f"urdf_to_graphviz: {path}: File too large\n"
+    assert path.read_text() == "older"
 
 
 def test_a_robot_cannot_choose_the_folder(monkeypatch, tmp_path):

@@ -29,7 +29,7 @@ module              contents
 `extra_records`     attachments and metadata records of MCAP files
 `output_channels`   the topics and channels of a new bag
 `pieces`            the new bags, one after another
-`unfinished`        files and folders that appear when they are complete
+`unfinished`        folders that appear when they are complete
 `latched`           latched messages before a given time
 `frame_renaming`    finds the fields that name frames, and renames the frames
 `message`           `BagMessage` and its channel, a topic with one definition of its type

@@ -12,8 +12,8 @@ import sys
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.bag.unfinished import new_file
 from turtlewire.errors import BagError
+from turtlewire.new_file import new_file
 
 if TYPE_CHECKING:
     from turtlewire.bag.message import BagMessage

@@ -21,8 +21,8 @@ from turtlewire.bag.qos_yaml import (
     profiles_to_text,
     qos_to_yaml,
 )
-from turtlewire.bag.unfinished import new_file
 from turtlewire.errors import BagError
+from turtlewire.new_file import new_file
 from turtlewire.terminal.printable import printable
 
 if TYPE_CHECKING:

@@ -18,8 +18,8 @@ from turtlewire.bag.qos_yaml import profiles_to_text
 from turtlewire.bag.reader import Bag
 from turtlewire.bag.sqlite_storage import SqliteStorage
 from turtlewire.bag.sqlite_writer import SqliteWriter
-from turtlewire.bag.unfinished import new_file
 from turtlewire.errors import BagError
+from turtlewire.new_file import new_file
 
 if TYPE_CHECKING:
     from turtlewire.bag.mcap_reader import McapFile

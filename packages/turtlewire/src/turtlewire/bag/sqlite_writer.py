@@ -8,7 +8,7 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
 
-from turtlewire.bag.unfinished import new_file
+from turtlewire.new_file import new_file
 
 __all__ = ["SqliteWriter", "merge_by_copy"]
 

@@ -1,4 +1,4 @@
-"""Files and folders that appear when they are complete."""
+"""Folders that appear when they are complete."""
 
 from __future__ import annotations
 
@@ -12,26 +12,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 
-__all__ = ["new_file", "new_folder"]
-
-
-@contextmanager
-def new_file(path: str) -> Iterator[str]:
-    """Yield the path of a file to make, which replaces ``path`` at the end.
-
-    If the block raises an exception, the file is removed, and ``path`` stays as it was. The file
-    of a killed process, which was to replace the same path, is removed first.
-    """
-    unfinished = f"{path}.part"
-    with suppress(FileNotFoundError):
-        os.remove(unfinished)
-    try:
-        yield unfinished
-        os.replace(unfinished, path)
-    except BaseException:
-        with suppress(FileNotFoundError):
-            os.remove(unfinished)
-        raise
+__all__ = ["new_folder"]
 
 
 @contextmanager

@@ -203,10 +203,11 @@ class Buffer(BaseBuffer):
         Raises:
             ValueError: The name ends in the suffix of another format, for example ``.csv``.
         """
+        from turtlewire.new_file import new_file
         from turtlewire.tf.archive import check_name, write
 
         check_name(path)
-        with open(path, "wb") as file:
+        with new_file(path) as unfinished, open(unfinished, "wb") as file:
             write(self, file)
 
     @classmethod

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from turtlewire.call_errors import hint_at
+from turtlewire.new_file import new_file
 from turtlewire.terminal.printable import printable
 from turtlewire.tf import svg
 from turtlewire.tf.drawing import text_width
@@ -67,7 +68,7 @@ class Plot:
                 f"{os.fspath(path)} does not end in .svg, .pdf or .png: plots are written as these"
             )
         data = writer(self.svg)
-        with open(path, "wb") as file:
+        with new_file(path) as unfinished, open(unfinished, "wb") as file:
             file.write(data)
 
     def _repr_svg_(self) -> str:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from turtlewire.geometry import arrays
+from turtlewire.new_file import new_file
 from turtlewire.path_arguments import BAGS, PICTURES, missing_file, path_text, refuse_other_formats
 from turtlewire.trajectory.stamps import Gap, find_gaps
 
@@ -377,7 +378,7 @@ def _write_lines(
     separator: str,
     heading: str = "",
 ) -> None:
-    with open(path, "w", encoding="utf-8") as file:
+    with new_file(path) as unfinished, open(unfinished, "w", encoding="utf-8") as file:
         file.write(heading)
         for time, numbers in rows:
             items = ([] if time is None else [time]) + [repr(number) for number in numbers]
