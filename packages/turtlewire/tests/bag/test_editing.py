@@ -14,7 +14,10 @@ from tests.bags import SECOND, START, transform, write_bag
 
 from turtlewire import msg
 from turtlewire.bag import BagWriter, copy_bag, merge_bags, open_bag, split_bag
+from turtlewire.bag.copying import ChunkCopy
 from turtlewire.bag.mcap_reader import McapFile
+from turtlewire.bag.output_channels import OutputChannels, Selection
+from turtlewire.bag.pieces import Pieces
 from turtlewire.errors import BagError
 from turtlewire.wire.qos import Durability, History, QoS
 
@@ -652,3 +655,17 @@ def test_a_part_is_read_with_little_memory(tmp_path):
         finally:
             tracemalloc.stop()
         assert most < 4_000_000, name  # of 20 MB
+
+
+@pytest.mark.parametrize("end_ns", [START + 5, START + 100], ids=["messages", "chunks"])
+def test_an_error_of_the_new_bag_is_not_damage_of_the_old_one(tmp_path, end_ns):
+    damage = []
+    with open_bag(text_bag(tmp_path / "in", range(START, START + 10))) as bag:
+        selection = Selection()
+        channels = OutputChannels([bag], selection, "mcap")
+        copy = ChunkCopy([bag], selection.takes, channels, None, damage.append)
+        pieces = Pieces(str(tmp_path / "out"), channels, {})
+        pieces.writer(START, 0).close()
+        with pytest.raises(BagError, match="is closed"):
+            copy.copy(pieces, START, end_ns, lambda share: None)
+    assert damage == []

@@ -182,18 +182,23 @@ class ChunkCopy:
         last_ns: int,
     ) -> None:
         """Copy a chunk as bytes if that is possible, else its messages in the order of the file."""
-        chunk, file, names = each.chunk, self._files[each.file].file, self._names[each.file]
+        names = self._names[each.file]
         try:
             if whole is not None and self._has_same_numbers(each, pieces):
                 pieces.copy_chunk(whole)
                 return
-            for log_time, number, publish_time, data in file.messages(chunk, names):
+            for log_time, number, publish_time, data in self._readable(each):
                 if start_ns <= log_time <= last_ns:
                     pieces.write(names[number], data, log_time, publish_time)
+        finally:
+            self._files[each.file].file.forget(each.chunk)
+
+    def _readable(self, each: _FileChunk) -> Iterator[tuple[int, int, int, bytes]]:
+        """Yield the messages of a chunk before its damage; only reading it counts as damage."""
+        try:
+            yield from self._files[each.file].file.messages(each.chunk, self._names[each.file])
         except BagError as error:
             self._damaged(error)
-        finally:
-            file.forget(chunk)
 
     def _has_same_numbers(self, each: _FileChunk, pieces: Pieces) -> bool:
         """Return True if the channels and schemas of a file have the same numbers in the output."""

@@ -430,6 +430,6 @@ def _compression_options(compression: str, storage: str) -> dict[str, str]:
     if compression == "none":
         return {}
     if storage == "mcap":
-        compress(compression, b"")  # a missing package raises here; later it counts as damage
+        compress(compression, b"")  # a missing package raises before anything is written
         return {"compression": compression}
     return {"compression_mode": "MESSAGE"}
