@@ -128,10 +128,13 @@ def test_the_pytest_of_ubuntu_24_04_runs_launch_tests(tmp_path):
 
 
 def test_failures_with_launch_test(tmp_path):
-    report = tmp_path / "report.xml"
+    report, older = tmp_path / "report.xml", tmp_path / "older.xml"
+    older.write_text("older")
+    report.hardlink_to(older)
     sample = SAMPLES / "sample_failing.py"
     done = run(*LAUNCH_TEST, sample, "--junit-xml", report, "--package-name", "mine", cwd=tmp_path)
     assert done.returncode == 1, done.stdout
+    assert older.read_text() == "older"  # it was not emptied before the new one was complete
     assert "Waiting for output timed out: 'nothing' on stderr" in done.stdout
     assert "Proc process-1 exited with code 5" in done.stdout
     assert "Processes under test stopped before tests completed" in done.stdout
