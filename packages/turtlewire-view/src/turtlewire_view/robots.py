@@ -173,7 +173,11 @@ class RobotJoints:
         for joint in self._moving:
             link = moved.lookup_transform(joint.parent, joint.child)
             self._buffer.set_static_transform(
-                joint.parent, joint.child, link.translation, link.rotation
+                joint.parent,
+                joint.child,
+                link.translation,
+                link.rotation,
+                sender=f"joint {joint.name}",
             )
 
     def _position(self, name: str) -> float:

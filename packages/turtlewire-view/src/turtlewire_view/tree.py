@@ -29,6 +29,8 @@ __all__ = [
 _NOTHING_M = 0.005
 _NOTHING_DEG = 0.5
 _DIRECTIONS = (("ahead", "behind"), ("to the left", "to the right"), ("above", "below"))
+#: The sender of transforms that a program sets without one: tf2's name for it helps nobody here.
+_UNNAMED = "default_authority"
 #: Words that are not followed by "of".
 _WITHOUT_OF = ("behind", "above", "below")
 
@@ -119,7 +121,7 @@ class TreeTable:
         return {
             "name": link.child_frame,
             "parent": link.parent_frame,
-            "publisher": ", ".join(sorted({sender.name for sender in link.senders})),
+            "publisher": ", ".join(_publishers(link)),
             "static": link.static,
             "samples": link.samples,
             "rate": link.rate_hz if moving and link.samples > 1 else None,
@@ -197,12 +199,17 @@ def _ended_link(buffer: Buffer, error: TransformException) -> str:
     assert error.newest_ns is not None
     assert error.oldest_ns is not None  # for the error of a time in the past
     gap, kept = error.newest_ns - error.requested_ns, error.newest_ns - error.oldest_ns
-    senders = " and ".join(sorted({sender.name for sender in ended[0].senders}))
+    senders = " and ".join(_publishers(ended[0]))
     return (
         f"The last transform of '{ended[0].child_frame}' is {gap / 1e9:.0f} s older than the last "
         f"transform of '{error.child_frame}', of which {kept / 1e9:.0f} s are kept. "
         f"Does {senders or 'its publisher'} still publish '{ended[0].child_frame}'?"
     )
+
+
+def _publishers(link: Link) -> list[str]:
+    """Return the names of a link's senders, without the one of transforms that name none."""
+    return sorted({sender.name for sender in link.senders} - {_UNNAMED})
 
 
 def path_between(

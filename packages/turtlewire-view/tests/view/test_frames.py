@@ -158,6 +158,7 @@ def steady():
 def test_rows_say_who_sends_how_often_and_how_late(steady):
     table = TreeTable()
     rows = {row["name"]: row for row in table.rows(steady, 2 * SECOND + SECOND // 4)}
+    assert rows["base"]["publisher"] == ""  # the program named no sender
     assert rows["base"]["rate"] == pytest.approx(10.0)
     assert rows["base"]["age"] == pytest.approx(0.25)
     assert rows["laser"] == {

@@ -19,6 +19,7 @@ from turtlewire_view.meshes import MeshFile, MeshLibrary, mesh_address
 from turtlewire_view.package_folders import PackageFolders
 from turtlewire_view.page_commands import PublishWithTool
 from turtlewire_view.page_requests import TOOLS, message_of_tool
+from turtlewire_view.tree import TreeTable
 
 ROBOTS = archive.read(GOLDEN / "robots" / "urdf.txt")
 URDF = """<robot name="arm">
@@ -342,6 +343,15 @@ def test_joints_start_within_their_limits(source):
 def test_positions_of_the_program_come_first(positions):
     source = RobotSource(Robot.from_xml(CRANE), positions)
     assert source.joints.positions()[0] == 0.5
+
+
+def test_the_tree_names_the_joint_of_each_frame(source):
+    for _ in range(2):
+        rows = TreeTable().rows(source.buffer, 0)
+        assert {row["name"]: row["publisher"] for row in rows} == {
+            "boom": "joint lift", "hook": "joint rope", "flag": "joint wind",
+        }  # fmt: skip
+        source.joints.move({"lift": 0.3})
 
 
 def test_a_moved_joint_moves_its_links_and_those_that_follow(source):

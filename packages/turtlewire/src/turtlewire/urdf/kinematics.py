@@ -208,12 +208,12 @@ class Kinematics:
         buffer = Buffer(cache_time_ns=None)
         for number, link in enumerate(self.links[1:]):
             joint = self.robot.parent_joints[link]
-            poses = local[:, number]
+            poses, sender = local[:, number], f"joint {joint.name}"
             if joint.moves and stamps is not None:
-                buffer.set_transforms(joint.parent, link, stamps, poses)
+                buffer.set_transforms(joint.parent, link, stamps, poses, sender=sender)
             elif len(poses):
                 pose = poses[0].tolist()
-                buffer.set_static_transform(joint.parent, link, pose[:3], pose[3:])
+                buffer.set_static_transform(joint.parent, link, pose[:3], pose[3:], sender=sender)
         return buffer
 
     def _drives(self, joints: list[str]) -> tuple[NDArray[np.intp], Array, Array]:
