@@ -426,7 +426,7 @@ def test_node_info_and_doctor_tell_what_cannot_be_called(peer, command):
         assert (told in text) == (core == "python")
         status, text = command("turtlewire", "doctor", TURTLEWIRE_CORE=core)
         told = re.search(
-            r"note: The \d+ services of nodes on Fast DDS \(rmw_fastrtps_cpp\) cannot be called "
+            r"note: \d+ services of nodes on Fast DDS \(rmw_fastrtps_cpp\) cannot be called "
             r"from here, including parameters and actions; topics work. Nodes: /peer.\n"
             rf"    {ADVICE.format('nodes')}",
             text,

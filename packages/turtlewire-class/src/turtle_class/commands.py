@@ -21,6 +21,7 @@ from turtle_class.runner import Limits
 from turtle_lesson.lesson import load_lesson
 from turtlewire.new_file import new_file
 from turtlewire.terminal.printable import printable
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -157,8 +158,8 @@ def start(folder: Path, names: Sequence[str]) -> None:
         raise ClassError(f"{printable(str(there[0]))} exists already; nothing was written")
     for path, text in wanted.items():
         _write(path, text)
-    count = len({path.parent for path in wanted})
-    print(f"{count} exercise{'' if count == 1 else 's'} in {printable(str(folder))}")  # noqa: T201
+    made = counted(len({path.parent for path in wanted}), "exercise")
+    print(f"{made} in {printable(str(folder))}")  # noqa: T201
 
 
 def check(folder: Path, names: Sequence[str], limit_s: float, junit: Path | None) -> int:
@@ -191,7 +192,8 @@ def check(folder: Path, names: Sequence[str], limit_s: float, junit: Path | None
 
 def _lines(report: GradeReport) -> Iterator[str]:
     for outcome in report.outcomes:
-        state = "solved" if outcome.passed else f"{outcome.points} of {len(outcome.results)} checks"
+        checks = counted(len(outcome.results), "check")
+        state = "solved" if outcome.passed else f"{outcome.points} of {checks}"
         yield f"{outcome.exercise.name}: {state}"
         for result in outcome.results:
             if result.state == "failed" or not outcome.handed_in:

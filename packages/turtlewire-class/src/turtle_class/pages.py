@@ -15,6 +15,7 @@ from urllib.parse import quote
 from xml.etree import ElementTree as ET
 
 from turtlewire.terminal.printable import printable, printable_lines
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtle_class.grading import GradeReport
@@ -101,8 +102,9 @@ def overview(reports: Sequence[GradeReport], title: str, when: str) -> str:
     rows = "".join(_row(report) for report in reports)
     solved = _line_of_totals(reports)
     body = (
-        f"<h1>{_text(title)}</h1><p class=quiet>{len(reports)} students, {len(exercises)} "
-        f"exercises, graded {_text(when)}. Click a student's name for results and hints.</p><div "
+        f"<h1>{_text(title)}</h1><p class=quiet>{counted(len(reports), 'student')}, "
+        f"{counted(len(exercises), 'exercise')}, graded {_text(when)}. "
+        "Click a student's name for results and hints.</p><div "
         "class=wide><table><thead><tr><th scope=col>Student</th>"
         f"<th scope=col>Solved</th>{head}</tr></thead><tbody>{rows}</tbody>"
         f"<tfoot>{solved}</tfoot></table></div>"
@@ -140,7 +142,7 @@ def student_page(report: GradeReport, when: str) -> str:
     parts = "".join(_exercise(outcome) for outcome in report.outcomes)
     body = (
         f'<p><a href="index.html">All students</a></p><h1>{_text(report.student)}</h1>'
-        f"<p>{report.passed} of {len(report.outcomes)} exercises solved "
+        f"<p>{report.passed} of {counted(len(report.outcomes), 'exercise')} solved "
         f"<span class=quiet>· graded {_text(when)}</span></p>{parts}"
     )
     return _page(report.student, body)

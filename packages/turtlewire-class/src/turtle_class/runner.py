@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, NamedTuple
 
 from turtle_class import supervise
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtle_class.catalogue import ExerciseFolder
@@ -236,7 +237,7 @@ def _beginning(stream: IO[bytes], most: int) -> str:
         while data := os.read(stream.fileno(), 65536):
             kept.append(data[: max(0, most - total)])
             total += len(data)
-    more = f"\n… and {total - most} bytes more" if total > most else ""
+    more = f"\n… and {counted(total - most, 'byte')} more" if total > most else ""
     return b"".join(kept).decode(errors="replace") + more
 
 

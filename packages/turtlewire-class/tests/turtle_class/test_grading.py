@@ -118,7 +118,7 @@ def test_a_file_of_a_million_bytes_is_read(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("printed", "log"), [(b"12345", "12345"), (b"123456", "12345\n… and 1 bytes more")]
+    ("printed", "log"), [(b"12345", "12345"), (b"123456", "12345\n… and 1 byte more")]
 )
 def test_a_log_that_just_fits_is_whole(printed, log):
     output, end = os.pipe()

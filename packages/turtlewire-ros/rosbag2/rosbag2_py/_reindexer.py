@@ -9,6 +9,7 @@ from rclpy.logging import get_logger
 from turtlewire.bag import reindex
 from turtlewire.errors import BagError
 from turtlewire.terminal.printable import printable
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from rosbag2_py._storage import StorageOptions
@@ -36,5 +37,6 @@ class Reindexer:
             logger = get_logger("rosbag2_cpp")
             for problem in damaged:
                 logger.warning(printable(problem))
-            kept = f"{found.message_count:,} messages in {len(found.paths)} file(s)"
+            files = counted(len(found.paths), "file")
+            kept = f"{counted(found.message_count, 'message')} in {files}"
             logger.warning(f"The bag is damaged; kept: {kept}.")

@@ -26,6 +26,7 @@ from turtlewire.wire.names import (
     validate_node_name,
     validate_topic_name,
 )
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     import queue
@@ -206,8 +207,8 @@ def _progress(recorder: BagRecorder, recording: Recording, seconds: float) -> st
     lost = f", {status.lost} lost" if status.lost else ""
     state = "paused" if recorder.is_paused else "recording"
     return (
-        f"{state} {time_text(seconds)}: {recorder.topics} topics, {status.messages} messages, "
-        f"{size_text(status.data_bytes)}{lost}"
+        f"{state} {time_text(seconds)}: {counted(recorder.topics, 'topic')}, "
+        f"{counted(status.messages, 'message')}, {size_text(status.data_bytes)}{lost}"
     )
 
 

@@ -16,6 +16,7 @@ from rosbag2_transport.topic_filter import TopicFilter
 from turtlewire.bag.metadata import is_decodable, not_in_cdr
 from turtlewire.terminal.printable import printable
 from turtlewire.terminal.suggestion import did_you_mean
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from rosbag2_transport.options import RecordOptions
@@ -75,8 +76,8 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> list[str]:
         _discard(outputs)
         paths = ", ".join(output.writer.path for output in outputs)
         get_logger("rosbag2_transport").warning(
-            f"Interrupted after {done} messages: what was converted is incomplete and removed "
-            f"({paths})"
+            f"Interrupted after {counted(done, 'message')}: what was converted is incomplete and "
+            f"removed ({paths})"
         )
         raise
     except Exception:

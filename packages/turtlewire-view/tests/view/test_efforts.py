@@ -81,8 +81,8 @@ def test_old_efforts_go_beyond_the_history():
     [
         ("", states(elbow=1), f"No robot description received on [{ROBOT}]"),
         ("<robot", states(elbow=1), "the description is invalid: "),
-        (URDF, JointState(name=["elbow"]), "the joint states have 1 names and 0 efforts"),
-        (URDF, states(knee=1), "the robot has none of the 1 joints, such as 'knee'"),
+        (URDF, JointState(name=["elbow"]), "the joint states have 1 name and 0 efforts"),
+        (URDF, states(knee=1), "the message has no joint of the robot; its first is 'knee'"),
         (URDF, states(elbow=math.nan, roll=1), "joint 'elbow': the effort nan or the axis cannot"),
         (URDF, states(roll=math.inf), "joint 'roll': the effort inf or the axis cannot"),
     ],

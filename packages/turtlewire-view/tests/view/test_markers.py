@@ -157,8 +157,8 @@ def wrong(**values):
     ("values", "line"),
     [
         ({"shape": 13}, "the type 13 is unknown (0 to 12 are known)"),
-        ({"shape": "line_strip", "points": 1}, "1 points; a line_strip needs 2 at least"),
-        ({"shape": "arrow", "points": 1}, "1 points; a arrow needs 2 at least"),
+        ({"shape": "line_strip", "points": 1}, "line_strip: 1 point, but it needs 2"),
+        ({"shape": "arrow", "points": 1}, "arrow: 1 point, but it needs 2"),
         ({"shape": "line_list", "points": 3}, "a line_list needs a multiple of 2"),
         ({"shape": "points", "points": 3, "colors": 2}, "2 colors for 3 points"),
         ({"frame": ""}, "header.frame_id is empty"),

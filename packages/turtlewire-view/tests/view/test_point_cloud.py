@@ -106,7 +106,7 @@ def test_points_that_are_not_finite_are_left_out():
     assert content.arrays["points"][:, 0].tolist() == [0, 3]
     values["x"][:] = math.nan
     (status,) = PointCloudDisplay().content(cloud(values))
-    assert (status.level, status.text) == ("error", "none of the 4 points is finite")
+    assert (status.level, status.text) == ("error", "no point is finite")
 
 
 def test_far_from_the_origin_the_anchor_keeps_millimetres():
@@ -198,7 +198,7 @@ def test_intensities_color_a_scan():
 
 
 def test_invalid_scans_are_reported():
-    assert "none of the 2 ranges" in LaserScanDisplay().content(scan([math.nan, 90.0]))[-1].text
+    assert "no range lies between" in LaserScanDisplay().content(scan([math.nan, 90.0]))[-1].text
     (status,) = LaserScanDisplay().content(scan([1.0], angle_increment=math.nan))
     assert status.level == "error"
     short = LaserScanDisplay().content(scan([1.0, 1.0, 1.0], angle_max=math.pi / 2))[-1]

@@ -30,7 +30,7 @@ module               contents
 `wake_up`            waits of the main thread that signals can interrupt
 `web`                a small HTTP and WebSocket server for this machine's browsers
 `wire`               the middleware: bytes, QoS, names and the graph
-`wording`            words of hints that depend on the interface of a buffer
+`wording`            numbers with their nouns, and hints of the interface of a buffer
 ===================  =====================================================================
 """
 

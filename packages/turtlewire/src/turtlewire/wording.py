@@ -1,8 +1,13 @@
-"""Words of hints that depend on the interface of a buffer."""
+"""Words of texts: numbers with their nouns, and hints that depend on the interface of a buffer."""
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
+
+
+def counted(count: int, noun: str) -> str:
+    """Return a number with its noun: ``1 link``, ``2,000 links``."""
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
 
 
 class Wording(NamedTuple):

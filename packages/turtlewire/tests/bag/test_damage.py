@@ -562,7 +562,7 @@ def test_missing_message_is_reported(tmp_path):
     path.write_bytes(damaged)
     messages, complaint = read_what_there_is(folder)
     assert len(messages) == 110
-    assert "1 messages listed in its statistics are missing" in complaint
-    assert "1 messages listed in its statistics are missing" in " ".join(
+    assert "1 message listed in its statistics is missing" in complaint
+    assert "1 message listed in its statistics is missing" in " ".join(
         Buffer.from_bag(folder).bag_report.problems
     )

@@ -149,7 +149,7 @@ def test_comparing(capsys, bag, tmp_path):
     assert done.status == 0
     assert "100 pairs of poses, aligned: none" in done.out
     assert "APE trans_part (m)\n       max\t0.000000\n" in done.out
-    assert "RPE trans_part (m) over 1 frames\n       max\t0.000000\n" in done.out
+    assert "RPE trans_part (m) over 1 frame\n       max\t0.000000\n" in done.out
     for kind in ("path", "errors", "error-path", "box", "histogram"):
         picture = tmp_path / f"{kind}.svg"
         assert (
@@ -173,7 +173,7 @@ def test_a_single_pose_has_no_relative_error(capsys, tmp_path):
     done = run(capsys, *words)
     assert (done.status, done.err) == (0, "")
     assert "APE trans_part (m)\n       max\t5.000000\n" in done.out
-    reason = "no two of 1 poses are 1 frames apart"
+    reason = "no two poses are 1 frame apart; the trajectory has 1 pose"
     assert f"RPE trans_part: cannot be computed, {reason}\n" in done.out
     (found,) = json.loads(run(capsys, *words, "--json").out)
     assert (found["ape"]["max"], found["rpe"], found["rpe_missing"]) == (5.0, None, reason)
@@ -324,7 +324,7 @@ def test_the_doctor_on_bags_without_or_with_odd_transforms(capsys, tmp_path):
     done = run(capsys, "doctor", tmp_path / "odd")
     assert "'base_link' goes back and forth between the parents 'map' and 'odom'" in done.out
     assert "'wheel' is sent by '/tf' and '/tf_static'" in done.out
-    assert "1 messages of /tf are not a TFMessage" in done.out
+    assert "Not a TFMessage: 1 message of /tf: " in done.out
 
 
 def test_a_frame_that_is_static_and_moves_and_publishers_nobody_noted(capsys, tmp_path):

@@ -90,7 +90,7 @@ def test_servers_that_would_misread_requests(foreign_server):
         (finding,) = graph_findings(graph)
     assert not finding.is_problem
     assert finding.text == (
-        "The 2 services of nodes on a middleware that announces no serviceid cannot be called "
+        "2 services of nodes on a middleware that announces no serviceid cannot be called "
         "from here, including parameters and actions; topics work. Nodes: /stranger."
     )
     assert finding.remedy.startswith("Start the nodes with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp,")

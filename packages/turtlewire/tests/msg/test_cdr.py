@@ -246,7 +246,7 @@ def test_other_encapsulations_are_refused(header):
         (
             Header,
             "0000000000000000ffffffff6d",
-            "field 'frame_id' at offset 16: needs 4294967295 bytes, but the data ends after 17",
+            "field 'frame_id' at offset 16: needs 4,294,967,295 bytes, but the data ends after 17",
         ),
         (
             Header,
@@ -269,7 +269,7 @@ def test_other_encapsulations_are_refused(header):
         (
             msg.get_message("std_msgs/msg/Float64MultiArray"),
             "0000000000000000ffffffff00000000",
-            "field 'data' at offset 20: needs 34359738360 bytes, but the data ends after 20",
+            "field 'data' at offset 20: needs 34,359,738,360 bytes, but the data ends after 20",
         ),
         (
             msg.get_message("rmw_dds_common/msg/NodeEntitiesInfo"),
@@ -307,7 +307,7 @@ def test_other_encapsulations_are_refused(header):
         (
             msg.get_message("std_msgs/msg/Empty"),
             "",
-            "field '(the byte of an empty message)' at offset 4: needs 1 bytes",
+            "field '(the byte of an empty message)' at offset 4: needs 1 byte,",
         ),
         (
             msg.get_message("unique_identifier_msgs/msg/UUID"),

@@ -191,7 +191,7 @@ def test_the_times_of_a_sequence_in_the_same_folder_are_read(tmp_path):
         found = Trajectory.load(tmp_path / "00.txt")
     assert (found.timed, found.stamps_ns.tolist()) == (True, walk.stamps_ns.tolist())
     (tmp_path / "times.txt").write_text("1.0\n")
-    with pytest.warns(UserWarning, match=r"^times\.txt is not used: .*5 poses, .* has 1 times"):
+    with pytest.warns(UserWarning, match=r"^times\.txt is not used: .*5 poses, .* has 1 time"):
         assert not Trajectory.load(tmp_path / "00.txt").timed
 
 

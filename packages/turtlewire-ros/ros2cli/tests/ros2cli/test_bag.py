@@ -83,11 +83,11 @@ def test_reindex_says_what_is_damaged_and_what_was_kept(capfd, tmp_path):
     status, _, err = run(capfd, "reindex", str(tmp_path / "cut"))
     assert status == 0
     assert "d_mcap_0.mcap: the record at byte 567 is cut off or damaged" in err
-    assert "The bag is damaged; kept: 141 messages in 1 file(s)." in err
+    assert "The bag is damaged; kept: 141 messages in 1 file." in err
     status, _, err = run(capfd, "reindex", str(tmp_path / "split"))
     assert "d_split_file_zstd_1.mcap.zstd: the compressed file ends too early" in err
     assert "this file is left out" in err
-    assert "kept: 258 messages in 1 file(s)." in err
+    assert "kept: 258 messages in 1 file." in err
     _, out, _ = run(capfd, "info", str(tmp_path / "cut"))
     assert "d_mcap_0.mcap\n" in out
 

@@ -123,7 +123,7 @@ def test_many_frames_are_in_their_natural_order_and_found_by_a_search(simulator,
     page.fill("#find-frame", "ROT12")
     page.wait_for_function("() => document.querySelectorAll('#tree li li li').length === 1")
     assert page.locator("#tree li > span").all_inner_texts() == ["world", "turtle1", "carrot12"]
-    assert "others" in page.inner_text("#more-frames")
+    assert "hidden" in page.inner_text("#more-frames")
     page.keyboard.press("ArrowUp")  # in the search, it drives nobody
     page.keyboard.type("d")
     assert simulator.commands == []

@@ -117,7 +117,7 @@ class DepthCloudDisplay(PointCloudDisplay):
         if found.left_out:
             self.warn(f"{found.left_out} of {found.looked_at} depths are negative or not finite")
         elif not len(found.points):
-            self.warn(f"none of the {found.looked_at} pixels has a depth")
+            self.warn("no pixel has a depth")
         columns = list(found.points.T)
         fields = [(name, "f8") for name in "xyz"]
         if self.options.text("color_topic"):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from turtlewire.urdf import Robot, UrdfError
+from turtlewire.wording import counted
 from turtlewire_view.displays.content import (
     Content,
     Display,
@@ -88,7 +89,8 @@ class EffortDisplay(Display):
             return []
         if len(message.effort) != len(message.name):
             raise UnusableMessageError(
-                f"the joint states have {len(message.name)} names and {len(message.effort)} efforts"
+                f"the joint states have {counted(len(message.name), 'name')} and "
+                f"{counted(len(message.effort), 'effort')}"
             )
         known = {
             name: float(effort)
@@ -96,9 +98,7 @@ class EffortDisplay(Display):
             if name in self._joints and self._joints[name].type in _SHAPES
         }
         if message.name and not known:
-            self.warn(
-                f"the robot has none of the {len(message.name)} joints, such as '{message.name[0]}'"
-            )
+            self.warn(f"the message has no joint of the robot; its first is '{message.name[0]}'")
         joints = [entry for item in known.items() if (entry := self._entry(*item)) is not None]
         return self._keep(Content({"joints": joints}), self.options.number("history_length"))
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from turtlewire.wording import counted
 from turtlewire_view.displays.content import (
     Content,
     Placed,
@@ -88,7 +89,7 @@ class LaserScanDisplay(PointsDisplay):
             hits = inside & (ranges < LARGEST)
         if len(ranges) and not hits.any():
             self.warn(
-                f"none of the {len(ranges)} ranges lies between range_min {message.range_min:g} "
+                f"no range lies between range_min {message.range_min:g} "
                 f"and range_max {message.range_max:g}"
             )
         return np.nonzero(hits)
@@ -110,8 +111,8 @@ class LaserScanDisplay(PointsDisplay):
         longest = step * max(1, len(message.ranges))
         if not 0 <= longest <= _LONGEST_SCAN:
             self.warn(
-                f"time_increment {step:g} s is not used: {len(message.ranges)} beams would take "
-                f"{longest:g} s"
+                f"time_increment {step:g} s is not used: {counted(len(message.ranges), 'beam')} "
+                f"would take {longest:g} s"
             )
             step = 0.0
         if not stamp_ns_of(message):
@@ -128,7 +129,8 @@ class LaserScanDisplay(PointsDisplay):
         if way != "flat" and given and len(index):
             return by_value(np.asarray(message.intensities)[index], self.options)
         if way == "intensity" and not given:
-            self.warn(f"{len(message.intensities)} intensities for {len(message.ranges)} ranges")
+            ranges = counted(len(message.ranges), "range")
+            self.warn(f"{len(message.intensities)} intensities for {ranges}")
         return flat(len(index), self.options.color("flat_color"))
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from turtlewire.wording import counted
 from turtlewire_view.displays.content import UnusableMessageError
 from turtlewire_view.displays.numeric import (
     LARGEST,
@@ -81,7 +82,8 @@ def marker_texture(
         return _NONE
     points, coordinates = len(marker.points), len(marker.uv_coordinates)
     if coordinates != points:
-        warn(f"{coordinates} uv_coordinates for {points} points: the texture is not drawn")
+        given = counted(coordinates, "uv_coordinate")
+        warn(f"{given} for {counted(points, 'point')}: the texture is not drawn")
         return _NONE
     uv = picked_rows(marker.uv_coordinates, picked, "uv")
     uv[~rows_within(uv)] = 0.0
@@ -222,12 +224,14 @@ def _points(
     count, colors = len(marker.points), len(marker.colors)
     least, group = _GROUPS.get(shape, (2, 1))
     if count < least:
-        raise UnusableMessageError(f"{count} points; a {shape} needs {least} at least")
+        raise UnusableMessageError(f"{shape}: {counted(count, 'point')}, but it needs {least}")
     if count % group:
         warn(f"{count} points; a {shape} needs a multiple of {group}, the rest is left out")
     per_group = shape == "triangle_list" and colors == count // group
     if colors and colors != count and not per_group:
-        warn(f"{colors} colors for {count} points: all get the marker's color")
+        warn(
+            f"{counted(colors, 'color')} for {counted(count, 'point')}: all get the marker's color"
+        )
     picked = _picked(shape, count - count % group, group, budget)
     if len(picked) < count - count % group:
         warn(f"{len(picked)} of {count} points are drawn")

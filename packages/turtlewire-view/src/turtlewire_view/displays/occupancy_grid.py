@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from turtlewire.wording import counted
 from turtlewire_view.displays.content import (
     Content,
     Display,
@@ -102,8 +103,8 @@ class OccupancyGridDisplay(Display):
 def _cells_of(message: Any, width: int, height: int) -> NDArray[np.int8]:
     if len(message.data) != width * height:
         raise UnusableMessageError(
-            f"{len(message.data)} cells in data, but width {width} and height {height} say "
-            f"{width * height}"
+            f"{counted(len(message.data), 'cell')} in data, but width {width} and height {height} "
+            f"say {width * height}"
         )
     return np.asarray(message.data, dtype=np.int8).reshape(height, width)
 

@@ -41,7 +41,7 @@ class PointCloudDisplay(PointsDisplay):
         xyz = np.stack([points[name].astype(np.float64) for name in "xyz"], axis=1)
         finite = rows_within(xyz)
         if len(points) and not finite.any():
-            raise UnusableMessageError(f"none of the {count} points is finite")
+            raise UnusableMessageError("no point is finite")
         points, xyz = points[finite], xyz[finite]
         positions, anchor = anchored(xyz)
         header = {**header, "count": count, "shown": len(points)}

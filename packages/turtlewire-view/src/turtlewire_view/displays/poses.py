@@ -91,7 +91,7 @@ class PoseArrayDisplay(Display):
         arrays, anchor = _drawn_poses(self, message.poses, rotations=True)
         header = {"count": len(arrays["points"])}
         if message.poses and not header["count"]:
-            raise UnusableMessageError(f"none of the {len(message.poses)} poses is finite")
+            raise UnusableMessageError("no pose is finite")
         return [Content(header, arrays, frame_of(message), stamp_ns_of(message), anchor=anchor)]
 
 

@@ -10,6 +10,8 @@ import json
 from struct import Struct
 from typing import Any, NamedTuple
 
+from turtlewire.wording import counted
+
 __all__ = [
     "CAPABILITIES",
     "ENCODINGS",
@@ -219,7 +221,6 @@ def parse_binary(frame: bytes) -> ClientMessage | ServiceRequest:
             encoding = frame[_SERVICE.size : end].decode("utf-8", "replace")
             return ServiceRequest(service_id, call_id, encoding, frame[end:])
     if frame[0] in {1, 2}:
-        raise ProtocolError(
-            f"a binary frame of operation {frame[0]} ends after {len(frame)} bytes, too early"
-        )
+        size = counted(len(frame), "byte")
+        raise ProtocolError(f"a binary frame of operation {frame[0]} ends after {size}, too early")
     raise ProtocolError(f"there is no binary operation {frame[0]}; clients send 1 and 2")

@@ -29,6 +29,7 @@ from turtlewire.bag.mcap_records import (
 )
 from turtlewire.bag.record_messages import mcap_messages
 from turtlewire.errors import BagError
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.bag.record_messages import RawMessage
@@ -322,7 +323,7 @@ class McapFile:
             lost = len(self._bytes) - reached
             self.problems.append(
                 f"{self.path}: {error}; all data before it is read, and the intact messages of the "
-                f"last {lost:,} bytes"
+                f"last {counted(lost, 'byte')}"
             )
             if self._bytes[reached : reached + 1] == _CHUNK:  # whole messages may lie in it
                 rest = len(self._bytes) - reached

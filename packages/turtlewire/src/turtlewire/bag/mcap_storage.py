@@ -20,6 +20,7 @@ from turtlewire.bag.storage import (
     one_ahead,
 )
 from turtlewire.errors import BagError
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.bag.mcap_records import ChunkIndex
@@ -293,7 +294,8 @@ class McapStorage:
     def missing_messages_error(self, count: int) -> BagError:
         """Return the error of a file that holds fewer messages than its statistics say."""
         return BagError(
-            f"{self.path}: damaged: {count:,} messages listed in its statistics are missing"
+            f"{self.path}: damaged: {counted(count, 'message')} listed in its statistics "
+            f"{'is' if count == 1 else 'are'} missing"
         )
 
     def _messages_of(

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.times import date_text
-from turtlewire.tf.notebook import MOST_ROWS, counted, html_table, html_text
+from turtlewire.tf.notebook import MOST_ROWS, html_table, html_text
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.bag.metadata import BagMetadata

@@ -26,6 +26,7 @@ from turtlewire.bag.storage import messages_of_blocks
 from turtlewire.call_errors import explain_call, explain_calls, hint_at
 from turtlewire.errors import BagError, InterfaceError
 from turtlewire.path_arguments import near_path, path_text
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -113,7 +114,8 @@ class Bag:
     def __repr__(self) -> str:
         seconds = self.metadata.duration_ns / 1e9
         return (
-            f"<Bag {self.path!r}: {len(self)} messages of {len(self.topics)} topics, "
+            f"<Bag {self.path!r}: {counted(len(self), 'message')} of "
+            f"{counted(len(self.topics), 'topic')}, "
             f"{seconds:.3f} s>"
         )
 
@@ -362,7 +364,9 @@ class Bag:
         found, expected = file.counted_messages(), self._expected_counts.get(path, 0)
         if found is not None and found < expected and not file.problems:
             full = os.path.join(self._folder, path)
-            self.complain(f"{full}: only {found:,} of {expected:,} messages found; it is damaged")
+            self.complain(
+                f"{full}: only {found:,} of {counted(expected, 'message')} found; it is damaged"
+            )
 
     def _open(self, path: str) -> StorageFile:
         full = os.path.join(self._folder, path)

@@ -18,6 +18,7 @@ from turtlewire.bag.mcap_reader import forget_pages, map_file
 from turtlewire.bag.mcap_records import ChunkIndex
 from turtlewire.bag.record_messages import ros1_fields, ros1_header, ros1_messages
 from turtlewire.errors import BagError
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.bag.record_messages import RawMessage
@@ -237,7 +238,7 @@ class Ros1File:
             self.problems.append(
                 f"{self.path}: the record at byte {position} is cut off or damaged "
                 f"({_text(error)}); all data before it is read, and the intact messages of the "
-                f"last {lost:,} bytes"
+                f"last {counted(lost, 'byte')}"
             )
             with suppress(*_DAMAGE):
                 if self._is_cut(position):

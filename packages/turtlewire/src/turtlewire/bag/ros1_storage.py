@@ -19,6 +19,7 @@ from turtlewire.msg.cdr import serialize
 from turtlewire.msg.registry import load_message
 from turtlewire.platforms import asked_core
 from turtlewire.wire.qos import Durability, QoS
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire._native import Ros1ToCdr
@@ -298,7 +299,7 @@ def converted_blocks(
             position = _convert_messages(block, position + 1, conversions, converted)
         yield converted
     for topic, (count, first) in left_out.items():
-        damaged(BagError(f"{path}: {count:,} messages of {topic} are left out: {first}"))
+        damaged(BagError(f"{path}: left out {counted(count, 'message')} of {topic}: {first}"))
 
 
 def _convert_messages(

@@ -11,6 +11,7 @@ from turtlewire.terminal.printable import printable
 from turtlewire.tf.faults import Conflict, conflicts, malformed, refusals
 from turtlewire.tf.links import links
 from turtlewire.trajectory.stamps import find_gaps
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.tf.faults import Malformed, Refused
@@ -115,7 +116,8 @@ class TransformReport:
                 "of it, static transforms too"
             )
         if self.malformed is not None and self.malformed.messages:
-            lines.append(f"no TFMessage: {self.malformed.messages} messages: {self.malformed.last}")
+            count = counted(self.malformed.messages, "message")
+            lines.append(f"no TFMessage: {count}: {self.malformed.last}")
         lines += [f"{each.kind}: {each.text}" for each in self.conflicts]
         lines += [_parent_line(each) for each in self.new_parents]
         lines += _jump_lines(self.jumps)
@@ -132,7 +134,7 @@ class TransformReport:
     def headline(self) -> str:
         """Return a one-line summary."""
         topics = ", ".join(f"{topic} ({_publishers(n)})" for topic, n in self.publishers.items())
-        return printable(f"{self.name}: {self.messages:,} messages of {topics}")
+        return printable(f"{self.name}: {counted(self.messages, 'message')} of {topics}")
 
     def __repr__(self) -> str:
         return "\n".join((self.headline(), *_table(self.links), *self.complaints()))
@@ -187,7 +189,7 @@ def group_jumps(jumps: list[tuple[int, str, int]]) -> list[Jump]:
 def _publishers(count: int) -> str:
     if not count:  # older recorders do not store the QoS
         return "publishers unknown"
-    return "1 publisher" if count == 1 else f"{count} publishers"
+    return counted(count, "publisher")
 
 
 def _table(links: list[Link]) -> list[str]:

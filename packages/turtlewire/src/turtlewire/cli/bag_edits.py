@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from turtlewire.bag import copy_bag, describe_bag, merge_bags, open_bag, split_bag
 from turtlewire.bag.times import date_text, size_text
 from turtlewire.terminal.printable import printable
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     import argparse
@@ -33,8 +34,8 @@ def show_info(path: str, *, as_json: bool) -> str:
 
 def _lines(bag: BagOverview) -> list[str]:
     kind = " ".join(filter(None, (bag.storage, bag.compression)))
-    files = f"{len(bag.files)} file{'s' * (len(bag.files) != 1)}"
-    facts = [kind, files, size_text(bag.file_bytes), f"{bag.count:,} messages"]
+    files = counted(len(bag.files), "file")
+    facts = [kind, files, size_text(bag.file_bytes), counted(bag.count, "message")]
     if bag.ros_distro:
         facts.append(printable(bag.ros_distro))
     lines = [f"{printable(bag.path)}: {', '.join(facts)}"]
@@ -142,7 +143,7 @@ def _report(args: argparse.Namespace, write: Callable[[], WrittenBags]) -> int:
         with open_bag(path) as bag:
             seconds = bag.metadata.duration_ns / 1e9
             shown = printable(os.path.relpath(path) if not os.path.isabs(args.output) else path)
-            print(f"{shown}: {len(bag):,} messages, {seconds:.3f} s")
+            print(f"{shown}: {counted(len(bag), 'message')}, {seconds:.3f} s")
     for problem in done.problems:
         print(f"{command}: {printable(problem)}", file=sys.stderr)
     return 1 if done.problems else 0

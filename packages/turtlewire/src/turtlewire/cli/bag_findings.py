@@ -18,6 +18,7 @@ from turtlewire.errors import BagError, CdrError
 from turtlewire.tf.buffer import Buffer
 from turtlewire.tf.tf_topics import as_options
 from turtlewire.wire.qos import Durability
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.bag import Bag, TransformReport
@@ -141,7 +142,8 @@ def _report_findings(report: TransformReport) -> list[Finding]:
     found = []
     if report.malformed is not None and report.malformed.messages:
         count, last, topic = report.malformed
-        found.append(problem(f"{count} messages of {topic} are not a TFMessage: {last}.", _FOREIGN))
+        text = f"Not a TFMessage: {counted(count, 'message')} of {topic}: {last}."
+        found.append(problem(text, _FOREIGN))
     found += [problem(each.text, _REMEDIES[each.kind]) for each in report.conflicts]
     for child, before, after, stamp_ns in report.new_parents:
         text = f"'{child}' leaves its parent '{before}' for '{after}' at {stamp_ns / 1e9:.3f} s."

@@ -10,8 +10,9 @@ from turtlewire.cli.trajectory_sources import TrajectoryReader, parse_source, pr
 from turtlewire.terminal.parser import tf_topics
 from turtlewire.terminal.printable import printable
 from turtlewire.trajectory import compare, plot
-from turtlewire.trajectory.metrics import UNITS
+from turtlewire.trajectory.metrics import distance_text
 from turtlewire.trajectory.plots import columns_of
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     import argparse
@@ -110,8 +111,8 @@ def _left_out(pairs: int, poses: tuple[int, int]) -> str:
     if poses == (pairs, pairs):
         return ""
     return (
-        f"of {poses[0]:,} poses of the reference and {poses[1]:,} of the estimate; the others have "
-        "no partner (gaps, ends, rates)\n"
+        f"of {counted(poses[0], 'pose')} of the reference and {poses[1]:,} of the estimate; the "
+        "others have no partner (gaps, ends, rates)\n"
     )
 
 
@@ -120,17 +121,17 @@ def _text(
 ) -> str:
     scale = f", scale {comparison.alignment.scale:.6f}" if comparison.align == "sim3" else ""
     pairs = len(comparison.reference)
-    counted = "1 pair of poses" if pairs == 1 else f"{pairs:,} pairs of poses"
     head = (
         f"{printable(name)} against {printable(args.reference)}\n"
-        f"{counted}, aligned: {comparison.align}{scale}\n"
+        f"{counted(pairs, 'pair')} of poses, aligned: {comparison.align}{scale}\n"
         f"{_left_out(pairs, poses)}"
     )
     ape, (rpe, reason) = _ape(args, comparison), _rpe(args, comparison)
     text = f"{head}\n{_title(ape)}\n{ape.table()}\n"
     if rpe is None:
         return f"{text}RPE {args.relation}: cannot be computed, {reason}\n"
-    return f"{text}{_title(rpe)} over {args.delta:g} {UNITS[args.delta_unit]}\n{rpe.table()}"
+    distance = distance_text(args.delta, args.delta_unit)
+    return f"{text}{_title(rpe)} over {distance}\n{rpe.table()}"
 
 
 def _title(errors: PoseErrors) -> str:

@@ -24,6 +24,7 @@ from turtlewire.errors import WireError
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.tf_topics import TfTopics
 from turtlewire.wire.environment import Range, discovery, is_installed, middleware_name
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
@@ -98,7 +99,7 @@ def full_report(findings: list[Finding]) -> str:
 
 def _verdict(findings: list[Finding]) -> str:
     count = sum(finding.is_problem for finding in findings)
-    found = f"{count} problem{'s' * (count > 1)} found" if count else "All is well"
+    found = f"{counted(count, 'problem')} found" if count else "All is well"
     middleware = middleware_name()
     if not is_installed(middleware):
         middleware = "none"

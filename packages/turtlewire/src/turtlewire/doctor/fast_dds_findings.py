@@ -17,6 +17,7 @@ from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.wire.cyclone.ports import ports_of
 from turtlewire.wire.names import fully_qualified_node_name
 from turtlewire.wire.qos import Reliability
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.doctor.fast_dds_search import Participant
@@ -171,7 +172,7 @@ def out_of_reach(
     if not found:
         return []
     if len(found) > _NAMED:
-        found[_NAMED:] = [f"{len(found) - _NAMED} others"]
+        found[_NAMED:] = [counted(len(found) - _NAMED, "other")]
     text = (
         "Topics of participants on Fast DDS stay silent, because they do not receive over UDPv4: "
         f"{', '.join(found)}."

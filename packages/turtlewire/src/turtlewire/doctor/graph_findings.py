@@ -15,6 +15,7 @@ from turtlewire.wire.conflicts import obstacles
 from turtlewire.wire.environment import discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.services import ONE_MIDDLEWARE, advice
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.wire.base import EndpointInfo, ForeignServer, Graph
@@ -61,8 +62,8 @@ def _foreign_findings(graph: Graph) -> list[Finding]:
     found = []
     for middleware, theirs in sorted(servers.items()):
         text = (
-            f"The {len(theirs)} services of nodes on {middleware} cannot be called from here, "
-            f"including parameters and actions; topics work. Nodes: {_owners_of(theirs)}."
+            f"{counted(len(theirs), 'service')} of nodes on {middleware} cannot be called from "
+            f"here, including parameters and actions; topics work. Nodes: {_owners_of(theirs)}."
         )
         found.append(note(text, advice("nodes")))
     for service, theirs in sorted(rivals.items()):

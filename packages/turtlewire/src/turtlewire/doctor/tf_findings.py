@@ -19,6 +19,7 @@ from turtlewire.doctor.graph_findings import owner_of
 from turtlewire.doctor.tf_traffic import tf_publishers
 from turtlewire.tf.frame_tree import find_loops
 from turtlewire.tf.tf_topics import as_options, of_first_robot, other_tf_topics
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.doctor.tf_traffic import TfTraffic
@@ -231,7 +232,7 @@ def _quoted(frames: Iterable[str]) -> str:
     """Return the first names of frames, and the number of the others."""
     names = [f"'{frame}'" for frame in frames]
     if len(names) > _NAMED:
-        names[_NAMED:] = [f"{len(names) - _NAMED} others"]
+        names[_NAMED:] = [counted(len(names) - _NAMED, "other")]
     return " and ".join(names)
 
 

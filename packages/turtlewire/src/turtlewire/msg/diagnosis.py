@@ -23,6 +23,7 @@ from turtlewire.msg.types import (
     NamespacedType,
 )
 from turtlewire.msg.values import UNIT_SIZE, text_of_units, units_of_text
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.msg.definition import MessageDefinition
@@ -117,9 +118,8 @@ class _ByteWalk:
     def take(self, size: int, alignment: int, path: str) -> bytes:
         start = self.offset + (4 - self.offset) % alignment
         if start + size > len(self.data):
-            raise self.fault(
-                path, start, f"needs {size} bytes, but the data ends after {len(self.data)}"
-            )
+            text = f"needs {counted(size, 'byte')}, but the data ends after {len(self.data)}"
+            raise self.fault(path, start, text)
         self.offset = start + size
         return self.data[start : self.offset]
 

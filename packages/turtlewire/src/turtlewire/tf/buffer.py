@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.call_errors import hint_at
 from turtlewire.terminal.printable import printable
 from turtlewire.tf.implementation import CORE, BaseBuffer, RecordWalk, Transform
-from turtlewire.wording import Wording, wording
+from turtlewire.wording import Wording, counted, wording
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -259,13 +259,13 @@ class Buffer(BaseBuffer):
     def __repr__(self) -> str:
         known = self.links()
         moving = [link for link in known if not link.static and link.samples]
-        text = f"{len(self.frames())} frames, {len(known)} links"
+        text = f"{counted(len(self.frames()), 'frame')}, {counted(len(known), 'link')}"
         if moving:
             oldest = min(link.oldest_ns for link in moving)
             newest = max(link.newest_ns for link in moving)
             samples = sum(link.samples for link in moving)
             text += (
-                f", {samples:,} samples from {oldest / 1e9:.3f} to {newest / 1e9:.3f} "
+                f", {counted(samples, 'sample')} from {oldest / 1e9:.3f} to {newest / 1e9:.3f} "
                 f"({(newest - oldest) / 1e9:.3f} s)"
             )
         return f"<{type(self).__name__}: {text}>"

@@ -47,7 +47,6 @@ if TYPE_CHECKING:
 __all__ = [
     "MOST_ROWS",
     "buffer_svg",
-    "counted",
     "html_table",
     "html_text",
     "projected",
@@ -57,11 +56,6 @@ __all__ = [
 #: A table of more rows is cut; the caller says so in the caption.
 MOST_ROWS = 500
 _LONGEST = 120
-
-
-def counted(count: int, noun: str) -> str:
-    """Return a number with its noun: ``1 link``, ``2,000 links``."""
-    return f"{count:,} {noun}{'' if count == 1 else 's'}"
 
 
 def html_text(text: str) -> str:

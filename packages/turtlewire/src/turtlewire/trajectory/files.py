@@ -21,6 +21,7 @@ from turtlewire.geometry import arrays
 from turtlewire.new_file import new_file
 from turtlewire.path_arguments import BAGS, PICTURES, missing_file, path_text, refuse_other_formats
 from turtlewire.trajectory.stamps import Gap, find_gaps
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -134,7 +135,9 @@ def _read_kitti(
         return FileContents(np.arange(len(poses), dtype=np.int64) * _SECOND, poses, timed=False)
     stamps, _ = _read_table(times, None, 1, "one number: the time in seconds")
     if len(stamps) != len(poses):
-        raise ValueError(f"{path} has {len(poses)} poses, {times} has {len(stamps)} times")
+        raise ValueError(
+            f"{path} has {counted(len(poses), 'pose')}, {times} has {counted(len(stamps), 'time')}"
+        )
     return _contents(stamps, poses, times)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from turtlewire.call_errors import hint_at
 from turtlewire.geometry import arrays
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,12 +21,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "RELATIONS",
-    "UNITS",
     "PoseErrors",
     "Relation",
     "Statistics",
     "Unit",
     "ape",
+    "distance_text",
     "pairs",
     "rpe",
 ]
@@ -52,8 +53,8 @@ RELATIONS: dict[Relation, str] = {
     "point_distance_error_ratio": "%",
 }
 
-#: Of `rpe`'s ``delta``, in words.
-UNITS: dict[Unit, str] = {"f": "frames", "m": "m", "d": "deg", "r": "rad"}
+#: The units of `rpe`'s ``delta``.
+_UNITS: dict[Unit, str] = {"f": "frames", "m": "m", "d": "deg", "r": "rad"}
 
 #: An angle also reaches a bound if it is smaller by this fraction. Three turns by 10 degrees make
 #: 30, however the doubles are rounded; in evo, rounding decides.
@@ -184,7 +185,9 @@ def rpe(
     source = reference if pairs_from_reference else estimate
     i, j = pairs(source, delta, unit, all_pairs=all_pairs, tolerance=tolerance)
     if not len(i):
-        raise ValueError(f"no two of {len(source)} poses are {delta:g} {UNITS[unit]} apart")
+        apart = distance_text(delta, unit)
+        poses = counted(len(source), "pose")
+        raise ValueError(f"no two poses are {apart} apart; the trajectory has {poses}")
     if relation.startswith("point_distance"):
         return _rpe_of_distances(reference, estimate, relation, i, j)
     distance = arrays.lengths(_move(estimate, i, j) - _move(reference, i, j))
@@ -252,11 +255,16 @@ def _check(
         )
 
 
+def distance_text(delta: float, unit: Unit) -> str:
+    """Return `rpe`'s ``delta`` with its unit: ``1 frame``, ``0.5 m``."""
+    return counted(int(delta), "frame") if unit == "f" else f"{delta:g} {_UNITS[unit]}"
+
+
 def pairs(
     trajectory: Trajectory, delta: float, unit: Unit, *, all_pairs: bool, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Rows of the pairs of poses that are ``delta`` apart; see `rpe`."""
-    if unit not in UNITS:
+    if unit not in _UNITS:
         raise ValueError(f"unknown unit '{unit}'; choose from f, m, d and r")
     if not isinstance(delta, (int, float, np.number)):
         raise TypeError(

@@ -13,6 +13,7 @@ from turtlewire.call_errors import explain_calls, hint_at
 from turtlewire.geometry import arrays
 from turtlewire.tf.array_arguments import number_array
 from turtlewire.trajectory.stamps import Gap, as_stamps
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     import os
@@ -189,10 +190,10 @@ class Trajectory:
 
     def __repr__(self) -> str:
         what = f"'{self.source_frame}' in '{self.target_frame}', " if self.source_frame else ""
-        gaps = "1 gap" if len(self.gaps) == 1 else f"{len(self.gaps)} gaps"
+        gaps = f", {counted(len(self.gaps), 'gap')}" if self.gaps else ""
         return (
-            f"<Trajectory: {what}{len(self)} poses, {self.duration_ns / 1e9:.3f} s, "
-            f"{self.path_length:.3f} m{f', {gaps}' if self.gaps else ''}>"
+            f"<Trajectory: {what}{counted(len(self), 'pose')}, {self.duration_ns / 1e9:.3f} s, "
+            f"{self.path_length:.3f} m{gaps}>"
         )
 
     @property

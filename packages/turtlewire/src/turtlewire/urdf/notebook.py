@@ -9,8 +9,9 @@ import numpy as np
 
 from turtlewire.errors import UrdfError
 from turtlewire.tf import svg
-from turtlewire.tf.notebook import MOST_ROWS, counted, html_table, html_text, projected
+from turtlewire.tf.notebook import MOST_ROWS, html_table, html_text, projected
 from turtlewire.urdf.kinematics import Kinematics
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.urdf.model import Description, Joint

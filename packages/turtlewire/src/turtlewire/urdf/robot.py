@@ -16,6 +16,7 @@ from turtlewire.path_arguments import missing_file, path_text
 from turtlewire.urdf.faults import XACRO_LEFT
 from turtlewire.urdf.model import Description
 from turtlewire.urdf.parser import parse_urdf
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from typing import TypeAlias
@@ -97,8 +98,8 @@ class Robot(Description):
     def __repr__(self) -> str:
         moving = sum(joint.moves for joint in self.joints.values())
         return (
-            f"<Robot {self.name!r}: {len(self.links)} links, {len(self.joints)} joints, "
-            f"{moving} moving>"
+            f"<Robot {self.name!r}: {counted(len(self.links), 'link')}, "
+            f"{counted(len(self.joints), 'joint')}, {moving} moving>"
         )
 
     def _repr_html_(self) -> str:

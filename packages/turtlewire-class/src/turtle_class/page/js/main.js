@@ -52,8 +52,8 @@ function draw() {
   const shown = seats.filter(wanted).sort(BY[byId("sort").value]);
   const running = seats.filter((seat) => seat.count).length;
   const bad = seats.filter((seat) => kind(seat) === "bad").length;
-  byId("summary").textContent =
-    `${seats.length} students · ${running} running · ${bad} with a problem`;
+  const students = `${seats.length} student${seats.length === 1 ? "" : "s"}`;
+  byId("summary").textContent = `${students} · ${running} running · ${bad} with a problem`;
   byId("nothing").hidden = shown.length > 0 || seats.length === 0;
   const elements = shown.map((seat) => {
     if (!cards.has(seat.domain)) cards.set(seat.domain, new Card());

@@ -73,7 +73,7 @@ function search() {
   for (const row of rows) row.element.hidden = !row.matches(words);
   const seen = rows.filter((row) => !row.element.hidden).length;
   part.count.hidden = !words.length || !rows.length;
-  part.count.textContent = `${seen} of ${rows.length} joints`;
+  part.count.textContent = `${seen} of ${rows.length} joint${rows.length === 1 ? "" : "s"}`;
 }
 
 part.search.oninput = search;

@@ -73,7 +73,7 @@ export class FramesPanel {
     byId("no-frames").hidden = frames.length > 0;
     byId("find-frame").hidden = all.length <= FEW && !search;
     const hidden = all.length - this.#readings.size;
-    const rest = search ? `${hidden} others` : `and ${hidden} more`;
+    const rest = search ? `${hidden} hidden` : `and ${hidden} more`;
     byId("more-frames").textContent = hidden ? rest : "";
     this.#offer(all, roots);
   }

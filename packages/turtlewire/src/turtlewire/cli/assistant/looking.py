@@ -20,6 +20,7 @@ from turtlewire.msg.json_messages import json_value
 from turtlewire.tf.buffer import Buffer, Transform
 from turtlewire.tf.listener import NOTHING_RECEIVED, TransformListener
 from turtlewire.wake_up import LoopWakeUp
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     from turtlewire.cli.assistant.network import Network
@@ -161,7 +162,7 @@ class Looking:
         publishers = len(self._network.graph.endpoints_of(topic, "publisher"))
         return RefusedCallError(
             f"No message on {topic} within {limit_s:g} s; it has "
-            + (f"{publishers} publishers, which may be silent" if publishers else "no publisher")
+            + (counted(publishers, "silent publisher") if publishers else "no publisher")
         )
 
 

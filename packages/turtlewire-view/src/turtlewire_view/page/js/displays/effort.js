@@ -47,7 +47,7 @@ export default class Effort extends Display {
   update() {
     if (!this.#newest) return;
     const missing = this.#place(this.#newest, true);
-    const more = missing.length > 1 ? ` (and ${missing.length - 1} more joints)` : "";
+    const more = missing.length > 1 ? ` (and ${missing.length - 1} more)` : "";
     this.view.report?.(missing.length ? `No transform from [${missing[0]}]${more}` : "");
   }
 

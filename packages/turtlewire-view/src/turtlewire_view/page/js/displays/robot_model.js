@@ -70,7 +70,7 @@ export default class RobotModel {
       if (pose) setPose(group, pose);
       else if (visuals.children.length || collisions.children.length) missing.push(frame);
     }
-    const more = missing.length > 1 ? ` (and ${missing.length - 1} more links)` : "";
+    const more = missing.length > 1 ? ` (and ${missing.length - 1} more)` : "";
     this.#missing = missing.length ? `No transform from [${missing[0]}]${more}` : "";
     this.#report();
   }
