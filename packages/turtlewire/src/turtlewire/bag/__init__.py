@@ -37,12 +37,15 @@ module              contents
 `files`             the files of a bag: kinds, names, order and common metadata
 `playback`          `PlayClock`, `ReadAhead`: the time of a playback, and due messages
 `writer`            `BagWriter`
+`file_series`       the files of a bag that is written, one after another
 `writer_checks`     checks of a writer's options, types and messages
 `recording`         `Recording`: messages of several threads, written on a background thread
 `storage`           the interface of a file of a bag, common to all storages; counts and times
 `mcap_storage`      that interface for MCAP files
 `sqlite_storage`    that interface for sqlite3 files
 `mcap_reader`       the MCAP format: summary, chunks, files without a summary
+`mcap_chunks`       chunks of an MCAP file: their records, and chunks to copy as they are
+`mapped_files`      files in memory, whose pages are read when they are needed
 `record_messages`   the messages among the records of a chunk
 `mcap_records`      the records of MCAP as bytes and objects
 `mcap_writer`       writes MCAP files

@@ -7,15 +7,13 @@ read.
 
 from __future__ import annotations
 
-import mmap
-import os
 import struct
-import sys
 import zlib
 from collections.abc import Container, Iterator
 from typing import TYPE_CHECKING
 
-from turtlewire.bag.compression import decompress
+from turtlewire.bag.mapped_files import forget_pages, map_file
+from turtlewire.bag.mcap_chunks import chunk_records, raw_chunk
 from turtlewire.bag.mcap_records import (
     MAGIC,
     OPCODE_AND_LENGTH,
@@ -34,7 +32,7 @@ from turtlewire.wording import counted
 if TYPE_CHECKING:
     from turtlewire.bag.record_messages import RawMessage
 
-__all__ = ["McapFile", "forget_pages", "map_file"]
+__all__ = ["McapFile"]
 
 _MESSAGE = struct.Struct("<HIQQ")  # channel, sequence, log time, publish time
 _PREFIX = OPCODE_AND_LENGTH.size
@@ -42,7 +40,6 @@ _FOOTER_SIZE = OPCODE_AND_LENGTH.size + 20
 _NO_TIME = (1 << 64) - 1
 _CHUNK_FIELDS = 8 + 8 + 8 + 4  # times, size and checksum, before the compression
 _CHUNK = bytes([Op.CHUNK])
-_MAPPED_AT_ONCE = max(1 << 16, mmap.PAGESIZE)  # by Linux, around a page that is read
 
 
 class McapFile:
@@ -111,7 +108,7 @@ class McapFile:
             return content
         try:
             is_intact = chunk.offset in self._intact
-            records = _chunk_records(content[OPCODE_AND_LENGTH.size :], is_intact=is_intact)
+            records = chunk_records(content[OPCODE_AND_LENGTH.size :], is_intact=is_intact)
         except BagError as error:
             raise BagError(f"{self.path}: chunk at byte {chunk.offset}: {error}") from None
         if isinstance(records, memoryview):
@@ -142,7 +139,7 @@ class McapFile:
         record = self._bytes[chunk.offset : chunk.offset + chunk.length]
         indexes = self._bytes[chunk.offset + chunk.length : end]
         try:
-            return _raw_chunk(chunk, record, indexes)
+            return raw_chunk(chunk, record, indexes)
         except (BagError, struct.error):  # it ends in the middle of a field
             return None
 
@@ -398,88 +395,3 @@ class _Totals:
 
 #: Bare messages are grouped into blocks of about this size, so that they can be put in order.
 _BARE_BLOCK_BYTES = 1 << 20
-
-
-def map_file(path: str, magic: bytes, kind: str) -> tuple[mmap.mmap, memoryview]:
-    """Map a file into memory, and return its bytes.
-
-    Args:
-        path: The file.
-        magic: The bytes that begin such a file.
-        kind: ``"an MCAP file"``, for errors.
-
-    Raises:
-        BagError: The file does not begin so.
-        OSError: The file cannot be opened.
-    """
-    with open(path, "rb") as file:
-        if os.fstat(file.fileno()).st_size < len(magic):
-            raise BagError(f"{path} is not {kind}: it has fewer than {len(magic)} bytes")
-        mapped = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
-    if mapped[: len(magic)] != magic:
-        mapped.close()
-        raise BagError(f"{path} is not {kind}: it does not begin with its magic bytes")
-    return mapped, memoryview(mapped)
-
-
-def forget_pages(mapped: mmap.mmap, offset: int, length: int) -> None:
-    """Release the memory of a part of a mapped file; it is read again when it is needed."""
-    if sys.platform != "win32" and hasattr(mmap, "MADV_DONTNEED"):
-        # Reading a page maps some before it, too, which were perhaps released already.
-        start = offset // _MAPPED_AT_ONCE * _MAPPED_AT_ONCE
-        mapped.madvise(mmap.MADV_DONTNEED, start, offset + length - start)
-
-
-def _chunk_records(content: memoryview, *, is_intact: bool) -> bytes | memoryview:
-    reader = RecordReader(content)
-    reader.take(16)  # the times of the first and last message
-    size, crc, compression = reader.u64(), reader.u32(), reader.string()
-    length = reader.u64()
-    present = min(length, len(content) - reader.position)
-    compressed, cut = reader.take(present), present < length
-    records = decompress(compression, compressed, size, cut=cut) if compression else compressed
-    if cut:  # the file ends in it
-        return records[: _end_of_the_whole(records)]
-    if crc and not is_intact and zlib.crc32(records) != crc:
-        raise BagError("the checksum does not match: the chunk is damaged")
-    return records
-
-
-def _raw_chunk(chunk: ChunkIndex, record: memoryview, indexes: memoryview) -> RawChunk | None:
-    """Return a chunk whose parts fit together; None if they do not."""
-    opcode, length = OPCODE_AND_LENGTH.unpack_from(record)
-    reader = RecordReader(record[_PREFIX:])
-    start, end, plain_bytes = reader.u64(), reader.u64(), reader.u64()
-    crc, compression, packed_bytes = reader.u32(), reader.string(), reader.u64()
-    whole = opcode == Op.CHUNK and _PREFIX + length == len(record)
-    fits = (start, end) == (chunk.start_ns, chunk.end_ns)
-    if not whole or not fits or reader.position + packed_bytes != length:
-        return None
-    offsets: dict[int, int] = {}
-    counts: dict[int, int] = {}
-    position = 0
-    while position < len(indexes):
-        opcode, length = OPCODE_AND_LENGTH.unpack_from(indexes, position)
-        reader = RecordReader(indexes[position + _PREFIX : position + _PREFIX + length])
-        channel, size = reader.u16(), reader.u32()
-        if opcode != Op.MESSAGE_INDEX or size % 16 or size + 6 != length:
-            return None
-        if size:
-            offsets[channel], counts[channel] = position, size // 16
-        position += _PREFIX + length
-    if position != len(indexes) or counts.keys() != chunk.channels:
-        return None
-    return RawChunk(
-        record, indexes, start, end, compression, packed_bytes, plain_bytes, offsets, counts, crc
-    )
-
-
-def _end_of_the_whole(records: bytes | memoryview) -> int:
-    """Return the end of the last whole record."""
-    end = 0
-    while end + _PREFIX <= len(records):
-        _, length = OPCODE_AND_LENGTH.unpack_from(records, end)
-        if end + _PREFIX + length > len(records):
-            break
-        end += _PREFIX + length
-    return end

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import decompress, most_bytes
-from turtlewire.bag.mcap_reader import forget_pages, map_file
+from turtlewire.bag.mapped_files import forget_pages, map_file
 from turtlewire.bag.mcap_records import ChunkIndex
 from turtlewire.bag.record_messages import ros1_fields, ros1_header, ros1_messages
 from turtlewire.errors import BagError
