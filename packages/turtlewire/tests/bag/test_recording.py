@@ -5,6 +5,7 @@ import threading
 import pytest
 
 from turtlewire.bag import BagWriter, open_bag
+from turtlewire.bag.file_series import FileSeries
 from turtlewire.bag.recording import Recording
 from turtlewire.errors import BagError
 
@@ -125,7 +126,7 @@ def test_a_recording_whose_bag_cannot_begin_another_file_ends_quietly(
 
     recording = Recording(BagWriter(tmp_path / "bag"), snapshot=snapshot)
     recording.add_topic("/a", "std_msgs/msg/String")
-    monkeypatch.setattr(BagWriter, "_open_file", full)
+    monkeypatch.setattr(FileSeries, "_new_file", full)
     with pytest.raises(OSError, match="No space left"):
         recording.split()
     if snapshot:

@@ -21,6 +21,7 @@ from tests.disks import full_disk
 import turtlewire
 from turtlewire import msg
 from turtlewire.bag import BagWriter, open_bag
+from turtlewire.bag.file_series import FileSeries
 from turtlewire.bag.sqlite_writer import SqliteWriter
 from turtlewire.errors import BagError
 from turtlewire.wire.qos import INFINITE_NS, Durability, History, Liveliness, QoS, Reliability
@@ -343,19 +344,19 @@ def test_the_length_of_a_file_counts_from_its_first_message_after_a_split(tmp_pa
 
 
 @pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
-@pytest.mark.parametrize("step", ["_finish_file", "_open_file"])
+@pytest.mark.parametrize("step", ["_finish", "_new_file"])
 def test_a_bag_that_cannot_begin_another_file_is_closed(tmp_path, monkeypatch, storage, step):
     writer = BagWriter(tmp_path / "made", storage=storage)
     writer.add_topic("/a", "std_msgs/msg/String")
     writer.write("/a", bytes(8), 1)
-    original = getattr(BagWriter, step)
+    original = getattr(FileSeries, step)
 
     def full(*arguments):
-        if step == "_finish_file":
+        if step == "_finish":
             original(*arguments)
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(BagWriter, step, full)
+    monkeypatch.setattr(FileSeries, step, full)
     with pytest.raises(OSError, match="No space left"):
         writer.split()
     writer.close()

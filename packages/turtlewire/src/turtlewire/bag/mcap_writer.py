@@ -9,12 +9,12 @@ from __future__ import annotations
 import struct
 import zlib
 from itertools import accumulate, count
+from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import compress, most_bytes
 from turtlewire.bag.mcap_records import (
     MAGIC,
     OPCODE_AND_LENGTH,
-    Channel,
     Op,
     RawChunk,
     RecordReader,
@@ -23,7 +23,13 @@ from turtlewire.bag.mcap_records import (
     pack_string,
     record,
 )
+from turtlewire.bag.metadata import dump_metadata
+from turtlewire.bag.qos_yaml import profiles_to_text
 from turtlewire.errors import BagError
+
+if TYPE_CHECKING:
+    from turtlewire.bag.message import BagChannel
+    from turtlewire.bag.metadata import BagMetadata
 
 __all__ = ["CHUNK_BYTES", "McapWriter"]
 
@@ -73,6 +79,8 @@ class McapWriter:
         self._new_definitions: list[bytes] = []
         self._definitions: list[bytes] = []
         self._schemas: set[int] = set()
+        #: The number in this file of each schema that `define` has added.
+        self.schema_ids: dict[Schema, int] = {}
         self._channels: set[int] = set()
         self._chunk_indexes: list[bytes] = []
         self._metadata_indexes: list[bytes] = []
@@ -92,10 +100,10 @@ class McapWriter:
 
     def add_schema(self, name: str, encoding: str, data: bytes, number: int | None = None) -> int:
         """Add a type; returns its id, which is ``number`` if no other type has it."""
-        schema = Schema(_free(self._schemas, number, 1), name, encoding, data)
-        content = struct.pack("<H", schema.id) + pack_string(name) + pack_string(encoding)
-        self._define(record(Op.SCHEMA, content + struct.pack("<I", len(data)) + data))
-        return schema.id
+        number = _free(self._schemas, number, 1)
+        content = struct.pack("<H", number) + pack_string(name) + pack_string(encoding)
+        self._add(record(Op.SCHEMA, content + struct.pack("<I", len(data)) + data))
+        return number
 
     def add_channel(
         self,
@@ -107,22 +115,39 @@ class McapWriter:
     ) -> int:
         """Add a topic; returns its id, which is ``number`` if no other topic has it."""
         number = _free(self._channels, number, 0)
-        channel = Channel(number, schema_id, topic, encoding, metadata)
-        self._define(
-            record(
-                Op.CHANNEL,
-                struct.pack("<HH", channel.id, schema_id)
-                + pack_string(topic)
-                + pack_string(channel.message_encoding)
-                + pack_map(metadata),
-            )
-        )
-        return channel.id
+        content = struct.pack("<HH", number, schema_id) + pack_string(topic)
+        self._add(record(Op.CHANNEL, content + pack_string(encoding) + pack_map(metadata)))
+        return number
 
-    def _define(self, definition: bytes) -> None:
+    def _add(self, definition: bytes) -> None:
         self._definitions.append(definition)
         self.summary_bytes += len(definition)
         self._new_definitions.append(definition)
+
+    def define(self, channel: BagChannel, version: int) -> int:
+        """Add a channel and its type with their numbers of another file, if these are free.
+
+        Args:
+            channel: The channel.
+            version: The version of the bag's metadata; QoS is written as in that version.
+
+        Returns:
+            The id of the channel.
+        """
+        schema, original = channel.schema, channel.record
+        schema_id = self.schema_ids.get(schema, 0)
+        if not schema_id and schema.name:
+            number = schema.id or None
+            schema_id = self.add_schema(schema.name, schema.encoding, schema.data, number)
+            self.schema_ids[schema] = schema_id
+        topic = channel.topic
+        if original is None:
+            qos = profiles_to_text(topic.qos, version)
+            metadata = {"offered_qos_profiles": qos, "topic_type_hash": topic.type_hash}
+            return self.add_channel(schema_id, topic.name, metadata, topic.serialization_format)
+        return self.add_channel(
+            schema_id, topic.name, original.metadata, original.message_encoding, original.id
+        )
 
     def write(self, channel_id: int, log_time_ns: int, publish_time_ns: int, data: bytes) -> None:
         """Add a message; it reaches the file when its chunk is full or at `flush`."""
@@ -136,6 +161,10 @@ class McapWriter:
         """Add a Metadata record between chunks."""
         self.flush()
         self.copy_extra(memoryview(record(Op.METADATA, pack_string(name) + pack_map(entries))))
+
+    def embed(self, metadata: BagMetadata) -> None:
+        """Add the bag's metadata; the last one counts."""
+        self.write_metadata("rosbag2", {"serialized_metadata": dump_metadata(metadata)})
 
     def copy_extra(self, content: memoryview) -> None:
         """Append an Attachment or Metadata record as it is."""

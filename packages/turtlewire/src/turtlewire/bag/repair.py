@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from turtlewire.bag.extra_records import extra_records
 from turtlewire.bag.mcap_storage import McapStorage
 from turtlewire.bag.mcap_writer import McapWriter
-from turtlewire.bag.metadata import NEWEST_VERSION, dump_metadata, write_metadata
+from turtlewire.bag.metadata import NEWEST_VERSION, write_metadata
 from turtlewire.bag.qos_yaml import profiles_to_text
 from turtlewire.bag.reader import Bag
 from turtlewire.bag.sqlite_storage import SqliteStorage
@@ -92,7 +92,7 @@ def _copy_sqlite(file: SqliteFile, path: str) -> None:
     writer = SqliteWriter(path, embedded.ros_distro if embedded else "")
     try:
         if embedded:
-            writer.write_metadata(embedded.version, dump_metadata(embedded))
+            writer.embed(embedded)
         hashes = {topic.type: topic.type_hash for topic in file.topics.values()}
         for name, (encoding, text) in file.definitions().items():
             writer.add_definition(name, encoding, text, hashes.get(name, ""))

@@ -7,8 +7,15 @@ import os
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
+from typing import TYPE_CHECKING
 
+from turtlewire.bag.metadata import dump_metadata
+from turtlewire.bag.qos_yaml import profiles_to_text
 from turtlewire.new_file import new_file
+
+if TYPE_CHECKING:
+    from turtlewire.bag.message import BagChannel
+    from turtlewire.bag.metadata import BagMetadata
 
 __all__ = ["SqliteWriter", "merge_by_copy"]
 
@@ -59,6 +66,9 @@ class SqliteWriter:
         OSError: From each method: the file cannot be written, for example because the disk is full.
     """
 
+    #: There is no summary, unlike in MCAP files.
+    summary_bytes = 0
+
     def __init__(self, path: str, ros_distro: str) -> None:
         if os.path.exists(path):
             raise FileExistsError(f"{path} exists already")
@@ -80,7 +90,7 @@ class SqliteWriter:
         self.message_count = 0
         self.start_ns = (1 << 64) - 1
         self.end_ns = 0
-        self.topic_counts: dict[int, int] = {}
+        self.channel_counts: dict[int, int] = {}
 
     @property
     def size(self) -> int:
@@ -103,8 +113,18 @@ class SqliteWriter:
         topic_id = self._insert(
             "topics VALUES (NULL, ?, ?, ?, ?, ?)", (name, type_name, encoding, qos, type_hash)
         )
-        self.topic_counts[topic_id] = 0
+        self.channel_counts[topic_id] = 0
         return topic_id
+
+    def define(self, channel: BagChannel, version: int) -> int:
+        """Add a topic and the definition of its type; see `McapWriter.define`."""
+        topic, schema = channel.topic, channel.schema
+        text = schema.data.decode("utf-8", "replace")
+        self.add_definition(topic.type, schema.encoding, text, topic.type_hash)
+        qos = profiles_to_text(topic.qos, version)
+        return self.add_topic(
+            topic.name, topic.type, qos, topic.type_hash, topic.serialization_format
+        )
 
     def write(self, topic_id: int, log_time_ns: int, _publish_time_ns: int, data: bytes) -> None:
         """Add a message; the publish time has no place in this format."""
@@ -113,9 +133,10 @@ class SqliteWriter:
         if self._pending_bytes >= _BATCH_BYTES:
             self.flush()
 
-    def write_metadata(self, version: int, text: str) -> None:
-        """Add metadata as YAML; the last one counts."""
-        self._insert("metadata VALUES (NULL, ?, ?)", (version, text))
+    def embed(self, metadata: BagMetadata) -> None:
+        """Add the bag's metadata; the last one counts."""
+        row = (metadata.version, dump_metadata(metadata))
+        self._insert("metadata VALUES (NULL, ?, ?)", row)
 
     def _insert(self, values: str, row: tuple[str | int, ...]) -> int:
         """Insert a row; return its id."""
@@ -132,7 +153,7 @@ class SqliteWriter:
                 "INSERT INTO messages (topic_id, timestamp, data) VALUES (?, ?, ?)", self._pending
             )
         for topic_id, log_time, _ in self._pending:
-            self.topic_counts[topic_id] += 1
+            self.channel_counts[topic_id] += 1
             self.start_ns = min(self.start_ns, log_time)
             self.end_ns = max(self.end_ns, log_time)
         self.message_count += len(self._pending)

@@ -5,29 +5,16 @@ from __future__ import annotations
 import atexit
 import errno
 import os
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
-from turtlewire.bag.compression import write_zstd_file
 from turtlewire.bag.definitions import known_hash
-from turtlewire.bag.files import file_name
+from turtlewire.bag.file_series import FileSeries
 from turtlewire.bag.mcap_writer import CHUNK_BYTES, McapWriter
 from turtlewire.bag.message import channel_of_text
-from turtlewire.bag.metadata import (
-    NEWEST_VERSION,
-    BagMetadata,
-    FileInfo,
-    TopicInfo,
-    dump_metadata,
-    write_metadata,
-)
-from turtlewire.bag.qos_yaml import profiles_to_text
-from turtlewire.bag.sqlite_writer import SqliteWriter, merge_by_copy
+from turtlewire.bag.metadata import NEWEST_VERSION, BagMetadata, TopicInfo
 from turtlewire.bag.writer_checks import (
-    ENDINGS,
     as_cdr,
     check_name,
     check_options,
@@ -46,8 +33,9 @@ from turtlewire.tf.tf_topics import refuse_other_types
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-    from turtlewire.bag.mcap_records import RawChunk, Schema
+    from turtlewire.bag.mcap_records import RawChunk
     from turtlewire.bag.message import BagChannel
+    from turtlewire.bag.sqlite_writer import SqliteWriter
     from turtlewire.msg import Message
     from turtlewire.tf.datetimes import Stamp
     from turtlewire.wire.qos import QoS
@@ -122,7 +110,6 @@ class BagWriter:
         BagError: A combination of arguments that rosbag2 does not know.
     """
 
-    _file: McapWriter | SqliteWriter | None = None
     _process = 0
 
     def __init__(
@@ -146,12 +133,6 @@ class BagWriter:
         check_sizes(chunk_bytes, max_file_bytes, max_file_ns, max_files)
         self.path = os.path.abspath(path_text(path, what="path of a new folder"))
         check_name(os.path.basename(self.path))
-        self._chunks: dict[str, Any] = {
-            "compression": compression,
-            "level": level,
-            "chunk_bytes": chunk_bytes,
-            "checksums": checksums,
-        }
         self.on_split: Callable[[str, str], None] | None = None
         self.on_begin: Callable[[int], None] | None = None
         self.on_compress: Callable[[str], None] | None = None
@@ -159,13 +140,7 @@ class BagWriter:
         self._max_file_bytes = max_file_bytes
         self._max_file_ns = max_file_ns
         self._splits = bool(max_file_bytes or max_file_ns)
-        self._max_files = max_files
-        self._opened_files = 0
-        self._counts_of_files: list[dict[str, int]] = []
         self._compresses_messages = compression_mode == "MESSAGE"
-        self._channels: dict[str, BagChannel] = {}
-        self._ids: dict[str, int] = {}
-        self._schemas: dict[Schema, int] = {}
         self._file_start_ns: int | None = None
         self.metadata = BagMetadata(
             storage,
@@ -176,8 +151,14 @@ class BagWriter:
             ros_distro=ros_distro,
         )
         _make_folder(self.path)
+        chunks = {
+            "compression": compression,
+            "level": level,
+            "chunk_bytes": chunk_bytes,
+            "checksums": checksums,
+        }
+        self._files = FileSeries(self.path, self.metadata, chunks, max_files)
         self._process = os.getpid()
-        self._file = self._open_file()
         _open_writers.add(self)
 
     def __del__(self) -> None:
@@ -193,7 +174,7 @@ class BagWriter:
     @property
     def topics(self) -> dict[str, TopicInfo]:
         """The topics that were added, by name."""
-        return {topic.name: topic for topic in _by_name(self._channels.values())}
+        return {topic.name: topic for topic in self._files.topics()}
 
     @property
     def file_path(self) -> str:
@@ -202,7 +183,7 @@ class BagWriter:
         Raises:
             BagError: The bag is closed.
         """
-        return self._open().path
+        return self._files.open_file().path
 
     def add_topic(
         self,
@@ -229,7 +210,7 @@ class BagWriter:
             UserWarning: The type is not known; the bag gets no definition of it.
         """
         type_name = checked_type_name(type_name)
-        known = self._channels.get(name)
+        known = self._files.channels.get(name)
         if known is not None:
             if known.topic.type != type_name:
                 raise BagError(f"{name} has the type {known.topic.type} already, not {type_name}")
@@ -254,15 +235,13 @@ class BagWriter:
         Raises:
             BagError: The bag is closed.
         """
-        file = self._open()
-        own = replace(channel, topic=replace(channel.topic, message_count=0))
-        self._channels[key] = own
-        self._ids[key] = self._define(file, own)
-        schema, record = channel.schema, channel.record
+        self._files.add_channel(key, channel)
+        file, schema, record = self._files.current, channel.schema, channel.record
         return (
-            record is not None
-            and record.id == self._ids[key]
-            and schema.id == self._schemas.get(schema, 0)
+            isinstance(file, McapWriter)
+            and record is not None
+            and record.id == self._files.ids[key]
+            and schema.id == file.schema_ids.get(schema, 0)
         )
 
     def remove_topic(self, name: str) -> None:
@@ -271,9 +250,9 @@ class BagWriter:
         Raises:
             BagError: The topic was not added.
         """
-        if self._channels.pop(name, None) is None:
+        if name not in self._files.channels:
             raise BagError(f"the topic '{name}' was not added")
-        del self._ids[name]
+        self._files.remove_channel(name)
 
     def write(
         self,
@@ -301,13 +280,14 @@ class BagWriter:
         """
         if not isinstance(topic, str):
             raise TypeError(f"topic must be str, not {type(topic).__name__}")
-        number = self._ids.get(topic)
+        files = self._files
+        number = files.ids.get(topic)
         if number is None and (type_name := getattr(type(data), "_TYPE_NAME", None)):
             refuse_other_types(topic, type_name)
             self.add_topic(topic, type_name)
-            number = self._ids[topic]
-        if number is None or self._file is None:
-            self._open()
+            number = files.ids[topic]
+        if number is None or files.current is None:
+            files.open_file()
             if not isinstance(data, (bytes, bytearray, memoryview)):
                 raise TypeError(
                     f"{topic} accepts a message or its CDR bytes, not {given(data, topic)}"
@@ -316,7 +296,7 @@ class BagWriter:
                 "Call add_topic() first: bytes do not say which type they have."
             )
         if not isinstance(data, bytes) or not data:
-            data = as_cdr(topic, self._channels[topic].topic.type, data)
+            data = as_cdr(topic, files.channels[topic].topic.type, data)
         if type(log_time_ns) is not int or not 0 <= log_time_ns <= self._last_time:
             log_time_ns = self._stamp(log_time_ns, "log_time_ns")
         if not publish_time_ns:
@@ -326,9 +306,9 @@ class BagWriter:
         if self._compresses_messages:
             data = compressed_message(topic, data)
         if self._splits:
-            self._split_if_due(self._file, log_time_ns)
-            number = self._ids[topic]
-        self._file.write(number, log_time_ns, publish_time_ns, data)
+            self._split_if_due(files.current, log_time_ns)
+            number = files.ids[topic]
+        files.current.write(number, log_time_ns, publish_time_ns, data)
 
     def append(self, key: str, data: bytes, log_time_ns: int, publish_time_ns: int) -> None:
         """Write a message as another bag has it.
@@ -349,32 +329,33 @@ class BagWriter:
             raise BagError(
                 f"{self.metadata.storage} files have no log time {log_time_ns}"
             ).with_hint("Write an MCAP file instead.")
-        self._open().write(self._ids[key], log_time_ns, publish_time_ns, data)
+        file = self._files.open_file()
+        file.write(self._files.ids[key], log_time_ns, publish_time_ns, data)
 
     def copy_chunk(self, chunk: RawChunk) -> None:
         """Append a chunk of another MCAP file as it is.
 
         All of its channels must have been added, and `add_channel` have returned True.
         """
-        file = self._open()
+        file = self._files.open_file()
         assert isinstance(file, McapWriter)
         file.copy_chunk(chunk)
 
     def copy_extra(self, record: memoryview) -> None:
         """Append an Attachment or Metadata record of another MCAP file as it is."""
-        file = self._open()
+        file = self._files.open_file()
         assert isinstance(file, McapWriter)
         file.copy_extra(record)
 
     @property
     def size(self) -> int:
         """Bytes in the current file, waiting for it, and in the summary of an MCAP file."""
-        file = self._open()
-        return file.size + (file.summary_bytes if isinstance(file, McapWriter) else 0)
+        file = self._files.open_file()
+        return file.size + file.summary_bytes
 
     def flush(self) -> None:
         """Hand all messages to the operating system: they survive this process."""
-        self._open().flush()
+        self._files.open_file().flush()
 
     def split(self) -> tuple[str, str]:
         """Finish the current file and begin another.
@@ -385,18 +366,9 @@ class BagWriter:
         Raises:
             OSError: The disk is full, for example. The bag is closed then.
         """
-        file, self._file = self._open(), None
-        try:
-            finished = self._finish_file(file)
-            self._remove_old_files()
-            self._file = self._open_file()
-        finally:
-            if self._file is None:  # nothing can be written any more
-                write_metadata(self.path, self._whole_metadata())
+        paths = self._files.split(self.on_compress)
         self._file_start_ns = None
-        for key, channel in self._channels.items():
-            self._ids[key] = self._define(self._file, channel)
-        return finished, self._file.path
+        return paths
 
     def close(self) -> None:
         """Finish the file and write ``metadata.yaml``; closing twice does nothing.
@@ -404,18 +376,11 @@ class BagWriter:
         Raises:
             OSError: The disk is full, for example. What was written before stays readable.
         """
-        if self._file is not None:
-            file, self._file = self._file, None
-            try:
-                self._finish_file(file)
-            finally:
-                write_metadata(self.path, self._whole_metadata())
+        self._files.close(self.on_compress)
 
     def abandon(self) -> None:
         """Close the current file as it is, before the folder is removed."""
-        if self._file is not None:
-            file, self._file = self._file, None
-            file.abandon()
+        self._files.abandon()
 
     def _stamp(self, time: Any, argument: str) -> int:
         """Return a time as an integer, which can be written."""
@@ -425,52 +390,6 @@ class BagWriter:
         if stamp > self._last_time:
             raise ValueError(f"{argument} is {stamp}, more nanoseconds than a bag can store")
         return stamp
-
-    # -- one file
-
-    def _open(self) -> McapWriter | SqliteWriter:
-        if self._file is None:
-            raise BagError(f"{self.path} is closed")
-        return self._file
-
-    def _open_file(self) -> McapWriter | SqliteWriter:
-        storage = self.metadata.storage
-        name = file_name(self.path, self._opened_files, self.metadata.ros_distro)
-        self._opened_files += 1
-        path = os.path.join(self.path, f"{name}.{ENDINGS[storage]}")
-        file = (
-            McapWriter(path, **self._chunks)
-            if storage == "mcap"
-            else SqliteWriter(path, self.metadata.ros_distro)
-        )
-        try:
-            self._embed(file, self._whole_metadata())
-        except BaseException:
-            file.abandon()
-            raise
-        self._schemas.clear()
-        return file
-
-    def _define(self, file: McapWriter | SqliteWriter, channel: BagChannel) -> int:
-        """Register a channel in a file; returns its number there."""
-        topic, schema, record = channel.topic, channel.schema, channel.record
-        qos = profiles_to_text(topic.qos, self.metadata.version)
-        encoding = topic.serialization_format
-        if isinstance(file, SqliteWriter):
-            text = schema.data.decode("utf-8", "replace")
-            file.add_definition(topic.type, schema.encoding, text, topic.type_hash)
-            return file.add_topic(topic.name, topic.type, qos, topic.type_hash, encoding)
-        number = self._schemas.get(schema, 0)
-        if not number and schema.name:
-            wanted = schema.id or None
-            number = file.add_schema(schema.name, schema.encoding, schema.data, wanted)
-            self._schemas[schema] = number
-        if record is None:
-            metadata = {"offered_qos_profiles": qos, "topic_type_hash": topic.type_hash}
-            return file.add_channel(number, topic.name, metadata, encoding)
-        return file.add_channel(
-            number, topic.name, record.metadata, record.message_encoding, record.id
-        )
 
     def _split_if_due(self, file: McapWriter | SqliteWriter, log_time_ns: int) -> None:
         """Begin a new file with the message of this time if the current one is full."""
@@ -486,82 +405,6 @@ class BagWriter:
                 self.on_split(*paths)
             if self.on_begin is not None:
                 self.on_begin(log_time_ns)
-
-    def _finish_file(self, file: McapWriter | SqliteWriter) -> str:
-        """Close a file and take it into the metadata; returns its path.
-
-        What waits and cannot be written is lost, the rest is finished before the error is raised.
-        """
-        try:
-            try:
-                file.flush()
-            finally:
-                self._enter(file)
-                self._embed(file, self._whole_metadata())
-        finally:
-            file.close()
-        if self.metadata.compression_mode == "FILE":
-            if self.on_compress is not None:
-                self.on_compress(file.path)
-            merge_by_copy(file.path)
-            write_zstd_file(file.path, file.path + ".zstd")
-            os.remove(file.path)
-            self.metadata.paths[-1] += ".zstd"
-        return os.path.join(self.path, self.metadata.paths[-1])
-
-    def _enter(self, file: McapWriter | SqliteWriter) -> None:
-        """Take what a file holds into the metadata."""
-        file.discard()
-        counts = file.channel_counts if isinstance(file, McapWriter) else file.topic_counts
-        counts_of_file = {key: counts.get(self._ids[key], 0) for key in self._channels}
-        for key, channel in self._channels.items():
-            channel.topic.message_count += counts_of_file[key]
-        self._counts_of_files.append(counts_of_file)
-        name = os.path.basename(file.path)
-        start = file.start_ns if file.message_count else 0
-        duration = file.end_ns - start
-        self.metadata.files.append(FileInfo(name, start, duration, file.message_count))
-        self.metadata.paths.append(name)
-
-    def _remove_old_files(self) -> None:
-        """Remove the oldest files, so that one more is not too many."""
-        while self._max_files and len(self.metadata.paths) >= self._max_files:
-            with suppress(FileNotFoundError):  # the user has moved it away
-                os.remove(os.path.join(self.path, self.metadata.paths.pop(0)))
-            self.metadata.files.pop(0)
-            for key, count in self._counts_of_files.pop(0).items():
-                if key in self._channels:
-                    self._channels[key].topic.message_count -= count
-
-    def _embed(self, file: McapWriter | SqliteWriter, metadata: BagMetadata) -> None:
-        text = dump_metadata(metadata)
-        if isinstance(file, SqliteWriter):
-            file.write_metadata(metadata.version, text)
-        else:
-            file.write_metadata("rosbag2", {"serialized_metadata": text})
-
-    def _whole_metadata(self) -> BagMetadata:
-        """Return the metadata with the totals of the files that are finished."""
-        filled = [file for file in self.metadata.files if file.message_count]
-        start = min((file.start_ns for file in filled), default=0)
-        end = max((file.start_ns + file.duration_ns for file in filled), default=0)
-        self.metadata.start_ns, self.metadata.duration_ns = start, end - start
-        self.metadata.message_count = sum(file.message_count for file in filled)
-        self.metadata.topics = _by_name(self._channels.values())
-        return self.metadata
-
-
-def _by_name(channels: Iterable[BagChannel]) -> list[TopicInfo]:
-    """Return the topics; the channels of one topic count together."""
-    topics: dict[str, TopicInfo] = {}
-    for topic in (channel.topic for channel in channels):
-        known = topics.get(topic.name)
-        topics[topic.name] = (
-            replace(known, message_count=known.message_count + topic.message_count)
-            if known
-            else topic
-        )
-    return list(topics.values())
 
 
 def _make_folder(path: str) -> None:
