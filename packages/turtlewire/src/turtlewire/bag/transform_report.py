@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
-from turtlewire.terminal.printable import printable
+from turtlewire.terminal.printable import printable, table_lines
 from turtlewire.tf.faults import Conflict, conflicts, malformed, refusals
 from turtlewire.tf.links import links
 from turtlewire.trajectory.stamps import find_gaps
@@ -200,15 +200,7 @@ def _table(links: list[Link]) -> list[str]:
         samples = "" if link.static else f"{link.samples:,}"
         names = printable(link.child_frame), printable(link.parent_frame)
         rows.append((*names, rate, samples, *times))
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  "
-        + "  ".join(
-            cell.ljust(width) if i < 2 else cell.rjust(width)
-            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in rows
-    ]
+    return [f"  {line}" for line in table_lines(rows, left=(0, 1))]
 
 
 def _seconds(stamp_ns: int) -> str:

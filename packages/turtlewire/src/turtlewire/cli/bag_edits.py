@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from turtlewire.bag import copy_bag, describe_bag, merge_bags, open_bag, split_bag
 from turtlewire.bag.times import date_text, size_text
-from turtlewire.terminal.printable import printable
+from turtlewire.terminal.printable import printable, table_lines
 from turtlewire.wording import counted
 
 if TYPE_CHECKING:
@@ -55,13 +55,7 @@ def _table(bag: BagOverview) -> list[str]:
     total = sum(topic.data_bytes for topic in bag.topics) or 1
     rows = [("topic", "messages", "rate", "size", "share", "type")]
     rows += [_row(topic, total) for topic in bag.topics]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  ".join(
-            (row[0].ljust(widths[0]), *map(str.rjust, row[1:5], widths[1:5]), row[5])
-        ).rstrip()
-        for row in rows
-    ]
+    return table_lines(rows, left=(0, 5))
 
 
 def _row(topic: TopicOverview, total: int) -> tuple[str, str, str, str, str, str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from turtlewire.bag.transforms import fill_buffer
 from turtlewire.cli.frame_picture import take_picture
-from turtlewire.terminal.printable import printable
+from turtlewire.terminal.printable import printable, table_lines
 from turtlewire.tf.buffer import Buffer
 
 if TYPE_CHECKING:
@@ -51,13 +51,8 @@ def _lines(picture: Picture, report: TransformReport, fixed: set[str]) -> list[s
         times = f"{link.oldest_ns / 1e9:.3f}", f"{link.newest_ns / 1e9:.3f}"
         gaps = str(len(report.gaps.get(row.frame, ())) or "")
         rows.append((name, _rate(link, fixed), f"{link.samples:,}", *times, gaps))
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    table = [
-        "  ".join((row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:]))).rstrip()
-        for row in rows
-    ]
     loops = [f"loop: {printable(' -> '.join((*loop, loop[0])))}" for loop in picture.loops]
-    return [report.headline(), *table, *loops, *report.complaints()]
+    return [report.headline(), *table_lines(rows, left=(0,)), *loops, *report.complaints()]
 
 
 def _rate(link: Link, fixed: set[str]) -> str:

@@ -1,4 +1,4 @@
-"""Text from other processes, made safe for a terminal.
+"""Text for a terminal: tables, and text from other processes, made safe.
 
 Names, types, strings and log lines of a peer may hold anything: an escape sequence that changes
 the window's title or clears the screen, a carriage return that hides the beginning of a line,
@@ -6,6 +6,8 @@ direction marks that show a line's words in another order. Print none of it unes
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 #: ``str.isprintable`` refuses these, and languages need them: two spaces, and the joiners of
 #: Persian, Hindi and emoji.
@@ -26,6 +28,23 @@ def printable(text: str) -> str:
 def printable_lines(text: str) -> str:
     """:func:`printable` for text of several lines: keeps line feeds and tabs."""
     return text if text.isprintable() else _escaped(text, _LINES)
+
+
+def table_lines(rows: Sequence[Sequence[str]], left: Sequence[int]) -> list[str]:
+    """Return the lines of a table without borders.
+
+    Args:
+        rows: The heading and the rows of cells.
+        left: The columns that are aligned to the left; the others hold numbers.
+    """
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [
+        "  ".join(
+            cell.ljust(width) if column in left else cell.rjust(width)
+            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]
 
 
 def _escaped(text: str, kept: frozenset[str]) -> str:
