@@ -16,54 +16,33 @@ _COMPRESSIONS = ("none", "zstd", "lz4", "file")
 
 def add_bag_edits(verbs: Any) -> None:
     """Add the commands that show bags and write new ones to the verbs of `turtlewire bag`."""
-    info = _add(
-        verbs,
-        "info",
-        "Show what a bag holds: times, topics, rates, sizes, damage",
-        "turtlewire bag info my_bag",
-        _info,
-    )
-    _add_bags(info)
+    summary = "Show what a bag holds: times, topics, rates, sizes, damage"
+    info = _add(verbs, "info", _info, summary, "turtlewire bag info my_bag")
     info.add_argument("--json", action="store_true", help="Print one JSON object")
-
-    cut = _add(
-        verbs,
-        "cut",
-        "Write the messages of a time span into a new bag",
-        "turtlewire bag cut my_bag -o part --from 10s --to 1m20s --tf-at-start",
-        _cut,
-    )
-    _add_bags(cut)
-    _add_edit(cut)
-
-    choose = _add(
-        verbs,
-        "filter",
-        "Write some topics of a bag into a new bag",
-        "turtlewire bag filter my_bag -o small --exclude '/camera/*'",
-        _filter,
-    )
-    _add_bags(choose)
-    _add_edit(choose)
-
-    merge = _add(
-        verbs,
-        "merge",
-        "Write the messages of several bags into a new bag, in order of time",
-        "turtlewire bag merge morning noon -o day",
-        _merge,
-    )
-    _add_bags(merge, "+")
-    _add_edit(merge)
-
-    split = _add(
-        verbs,
-        "split",
-        "Write a bag into several new bags: OUT/OUT_0, OUT/OUT_1 and so on",
-        "turtlewire bag split my_bag -o parts --every 60s --tf-at-start",
-        _split,
-    )
-    _add_bags(split)
+    for verb, run, summary, example in (
+        (
+            "cut",
+            _cut,
+            "Write the messages of a time span into a new bag",
+            "turtlewire bag cut my_bag -o part --from 10s --to 1m20s --tf-at-start",
+        ),
+        (
+            "filter",
+            _filter,
+            "Write some topics of a bag into a new bag",
+            "turtlewire bag filter my_bag -o small --exclude '/camera/*'",
+        ),
+        (
+            "merge",
+            _merge,
+            "Write the messages of several bags into a new bag, in order of time",
+            "turtlewire bag merge morning noon -o day",
+        ),
+    ):
+        _add_edit(_add(verbs, verb, run, summary, example))
+    summary = "Write a bag into several new bags: OUT/OUT_0, OUT/OUT_1 and so on"
+    example = "turtlewire bag split my_bag -o parts --every 60s --tf-at-start"
+    split = _add(verbs, "split", _split, summary, example)
     where = split.add_mutually_exclusive_group()
     where.add_argument("--every", metavar="SPAN", help="Length of each bag, such as 60s")
     where.add_argument("--size", help="Begin a bag at this size, such as 1GB or 512MiB")
@@ -73,18 +52,15 @@ def add_bag_edits(verbs: Any) -> None:
     _add_edit(split)
 
 
-def _add(verbs: Any, verb: str, summary: str, example: str, run: Any) -> Any:
+def _add(verbs: Any, verb: str, run: Any, summary: str, example: str) -> Any:
     epilog = f"Example: {example}" if verb == "info" else f"{_TIMES} Example: {example}"
     parser = verbs.add_parser(verb, help=summary, description=summary, epilog=epilog)
     parser.set_defaults(run=reporting_errors(f"bag {verb}", run), parser=parser)
-    return parser
-
-
-def _add_bags(parser: argparse.ArgumentParser, nargs: str | None = None) -> None:
+    name, nargs = ("bags", "+") if verb == "merge" else ("bag", None)
     text = "A folder, or a .mcap, .db3 or .bag file"
-    name = "bags" if nargs else "bag"
-    bags: Any = parser.add_argument(name, metavar="BAG", nargs=nargs, help=text)
+    bags = parser.add_argument(name, metavar="BAG", nargs=nargs, help=text)
     bags.completer = complete_bags
+    return parser
 
 
 def _add_edit(parser: argparse.ArgumentParser) -> None:

@@ -32,15 +32,14 @@ def run_compare(args: argparse.Namespace) -> int:
     """
     columns_of(args.plane)  # report an invalid one even if it is not drawn
     reader = TrajectoryReader(*tf_topics(args))
-    source = parse_source(args.reference)
-    reference = reader.read(source)
+    reference = reader.read(parse_source(args.reference))
     compared: dict[str, Comparison] = {}
-    poses: dict[str, int] = {}
+    poses: dict[str, tuple[int, int]] = {}
     for text in args.estimates:
-        estimate_source = parse_source(text)
-        estimate = reader.read(estimate_source, like=reference)
-        poses[str(estimate_source)] = len(estimate)
-        compared[str(estimate_source)] = compare(
+        name = str(parse_source(text))
+        estimate = reader.read(parse_source(text), like=reference)
+        poses[name] = (len(reference), len(estimate))
+        compared[name] = compare(
             reference,
             estimate,
             args.align,
@@ -51,19 +50,9 @@ def run_compare(args: argparse.Namespace) -> int:
     if args.plot:
         _draw(args, compared).save(args.plot)
     if args.json:
-        print(
-            json.dumps(
-                [
-                    _figures(args, name, each, (len(reference), poses[name]))
-                    for name, each in compared.items()
-                ]
-            )
-        )
+        print(json.dumps([_figures(args, name, compared[name], poses[name]) for name in compared]))
     else:
-        blocks = [
-            _text(args, name, each, (len(reference), poses[name]))
-            for name, each in compared.items()
-        ]
+        blocks = [_text(args, name, compared[name], poses[name]) for name in compared]
         print("\n".join(blocks), end="")
     return 0
 

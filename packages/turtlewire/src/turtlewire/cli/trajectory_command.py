@@ -11,6 +11,7 @@ from turtlewire.cli.trajectory_sources import TrajectoryReader, TrajectorySource
 from turtlewire.terminal.parser import tf_topics
 from turtlewire.terminal.printable import printable
 from turtlewire.trajectory.files import kitti_times, write_file
+from turtlewire.wording import counted
 
 if TYPE_CHECKING:
     import argparse
@@ -90,5 +91,5 @@ def _lines(source: TrajectorySource, trajectory: Trajectory, written: list[str])
         pause = (gap.end_ns - gap.start_ns) / 1e9
         lines.append(f"  gap       {pause:.3f} s from {gap.start_ns / 1e9:.6f} s: no poses")
     if len(trajectory.gaps) > _MOST_GAPS:
-        lines.append(f"  and {len(trajectory.gaps) - _MOST_GAPS} more gaps")
+        lines.append(f"  and {counted(len(trajectory.gaps) - _MOST_GAPS, 'more gap')}")
     return lines + [f"  written   {name}" for name in written]
