@@ -23,6 +23,7 @@ that this command prints. Other pages than those of these apps and of this compu
 
 def add_foxglove_command(commands: Any) -> None:
     """Add the verb to the command's parser."""
+    from turtlewire.terminal.parser import reporting_errors
     from turtlewire_view.package_folders import add_package_option
 
     summary = "Serve topics, services and parameters to Foxglove and Lichtblick"
@@ -46,7 +47,7 @@ def add_foxglove_command(commands: Any) -> None:
     parser.add_argument(
         "--use-sim-time", action="store_true", help="Use the time of /clock, and send it to clients"
     )
-    parser.set_defaults(run=_foxglove, parser=parser)
+    parser.set_defaults(run=reporting_errors("foxglove", _foxglove), parser=parser)
 
 
 def _add_place(parser: argparse.ArgumentParser) -> None:
@@ -100,7 +101,6 @@ def _add_offers(parser: argparse.ArgumentParser) -> None:
 
 def _foxglove(args: argparse.Namespace) -> int:
     from turtlewire import wire
-    from turtlewire.errors import WireError
     from turtlewire_view.foxglove import FoxgloveServer
     from turtlewire_view.foxglove.assets import share_folder
 
@@ -124,9 +124,6 @@ def _foxglove(args: argparse.Namespace) -> int:
             if not options.is_local:
                 print(options.warning, flush=True)
             ended.wait()
-    except WireError as error:
-        print(f"turtlewire foxglove: {error.in_one_line()}", file=sys.stderr)
-        return 2
     except OSError as error:
         print(f"turtlewire foxglove: {error}.", file=sys.stderr)
         print("--port N uses another port, --port 0 a free one.", file=sys.stderr)

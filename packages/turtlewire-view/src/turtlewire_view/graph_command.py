@@ -53,17 +53,12 @@ def add_graph_command(commands: Any) -> None:
 
 
 def _graph(args: argparse.Namespace) -> int:
-    from turtlewire.errors import WireError
     from turtlewire_view.graph.picture import Selection
 
     selection = Selection(args.topics, args.debug, args.filter)
-    try:
-        if args.save is not None:
-            return _save(args.save, selection)
-        return _serve(args, selection)
-    except WireError as error:
-        print(f"turtlewire graph: {error.in_one_line()}", file=sys.stderr)
-        return 2
+    if args.save is not None:
+        return _save(args.save, selection)
+    return _serve(args, selection)
 
 
 def _save(path: str, selection: Selection) -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import signal
-import sys
 import threading
 from typing import TYPE_CHECKING, Any
 
@@ -61,24 +60,16 @@ def _view(args: argparse.Namespace) -> int:
     """Serve the page until Ctrl-C or SIGTERM."""
     from urllib.parse import urlsplit
 
-    from turtlewire.errors import WireError
     from turtlewire.web.desktop import open_browser, wanted_lan
     from turtlewire.web.lan import invite
-    from turtlewire_view.rviz_file import RvizFileError, load_rviz
+    from turtlewire_view.rviz_file import load_rviz
     from turtlewire_view.viewer import Viewer
 
     ended = threading.Event()
     signal.signal(signal.SIGTERM, lambda *_: ended.set())
     lan = args.lan or wanted_lan()
-    try:
-        saved = None if args.display_config is None else load_rviz(args.display_config)
-        source, packages = _source(args)
-    except RvizFileError as error:
-        print(f"turtlewire view: {error}", file=sys.stderr)
-        return 2
-    except WireError as error:
-        print(f"turtlewire view: {error.in_one_line()}", file=sys.stderr)
-        return 2
+    saved = None if args.display_config is None else load_rviz(args.display_config)
+    source, packages = _source(args)
     with contextlib.ExitStack() as stack:
         stack.callback(source.close)
         viewer = Viewer(

@@ -153,7 +153,7 @@ def _add_frames(commands: Any) -> None:
         metavar="S",
         help="Time between two trees (default: %(default)s)",
     )
-    parser.set_defaults(run=_frames, parser=parser)
+    parser.set_defaults(run=reporting_errors("frames", _frames), parser=parser)
 
 
 class _Version(argparse.Action):
@@ -186,15 +186,10 @@ def _frame_names(**_: Any) -> list[str]:
 
 def _doctor(args: argparse.Namespace) -> int:
     from turtlewire.doctor.examination import as_json, examine, full_report, report
-    from turtlewire.errors import WireError
 
     as_text = full_report if args.bag is None else report
     if args.bag is None:
-        try:
-            findings = examine(args.listen, _robot_topics(args))
-        except WireError as error:
-            print(f"turtlewire doctor: {error.in_one_line()}", file=sys.stderr)
-            return 2
+        findings = examine(args.listen, _robot_topics(args))
     else:
         if args.listen is not None:
             args.parser.error("--listen cannot be combined with a BAG")
@@ -216,19 +211,14 @@ def _robot_topics(args: argparse.Namespace) -> TfTopics:
 
 def _frames(args: argparse.Namespace) -> int:
     from turtlewire.cli.frames import show_frames
-    from turtlewire.errors import WireError
     from turtlewire.tf.tf_topics import TfTopics
 
     if args.frame is not None and (bag := what_to_do_with_bag(args.frame)):
         args.parser.error(bag)
-    try:
-        return show_frames(
-            args.frame,
-            TfTopics(args.topic, args.static_topic),
-            once=args.once,
-            as_json=args.json,
-            period_s=args.period,
-        )
-    except WireError as error:
-        print(f"turtlewire frames: {error.in_one_line()}", file=sys.stderr)
-        return 2
+    return show_frames(
+        args.frame,
+        TfTopics(args.topic, args.static_topic),
+        once=args.once,
+        as_json=args.json,
+        period_s=args.period,
+    )

@@ -6,6 +6,8 @@ import argparse
 import sys
 from typing import Any
 
+from turtlewire.terminal.parser import reporting_errors
+
 _MISSING = (
     "turtlewire mcp needs the official SDK of the Model Context Protocol, version 2: "
     "pip install 'turtlewire[mcp]', or pip install 'mcp>=2' pypdfium2"
@@ -35,7 +37,7 @@ def add_mcp(commands: Any) -> None:
         metavar="N",
         help="Calls of tools that are answered in a minute (default: %(default)s)",
     )
-    parser.set_defaults(run=_mcp, parser=parser)
+    parser.set_defaults(run=reporting_errors("mcp", _mcp), parser=parser)
 
 
 def _rate(text: str) -> int:
@@ -63,13 +65,8 @@ def _mcp(args: argparse.Namespace) -> int:
         print("turtlewire mcp: needs stdin and stdout, and one of them is closed", file=sys.stderr)
         return 2
     from turtlewire.cli.assistant.network import Network
-    from turtlewire.errors import WireError
 
-    try:
-        network = Network()
-    except WireError as error:
-        print(f"turtlewire mcp: {error.in_one_line()}", file=sys.stderr)
-        return 2
+    network = Network()
     in_terminal = sys.stdin.isatty()
     server.make_stdin_endable()
     with network:

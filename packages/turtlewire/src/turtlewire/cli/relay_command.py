@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 import signal
-import sys
 from typing import TYPE_CHECKING, Any
+
+from turtlewire.terminal.parser import reporting_errors
 
 if TYPE_CHECKING:
     from turtlewire.relay.side import End
@@ -45,7 +46,7 @@ def add_relay(commands: Any) -> None:
         metavar="PREFIX",
         help="Put PREFIX in front of the frames in /tf and /tf_static, which then stay outside NS",
     )
-    parser.set_defaults(run=_relay, parser=parser)
+    parser.set_defaults(run=reporting_errors("relay", _relay), parser=parser)
 
 
 def _end(text: str) -> End:
@@ -69,18 +70,13 @@ def _namespace(text: str) -> str:
 
 def _relay(args: argparse.Namespace) -> int:
     """Carry until Ctrl-C or SIGTERM."""
-    from turtlewire.errors import WireError
     from turtlewire.relay.relay import Plan, Relay
     from turtlewire.terminal.printable import printable
 
     plan = Plan(args.near, args.far, args.namespace, args.frame_prefix)
     if plan.near == plan.far and not plan.namespace:
         args.parser.error(_SAME.format(plan.near))
-    try:
-        relay = Relay(plan, lambda line: print(printable(line), flush=True))
-    except WireError as error:
-        print(f"turtlewire relay: {error.in_one_line()}", file=sys.stderr)
-        return 2
+    relay = Relay(plan, lambda line: print(printable(line), flush=True))
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: relay.end())
     try:

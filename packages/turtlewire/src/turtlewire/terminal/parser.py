@@ -142,24 +142,18 @@ def reporting_errors(
     Args:
         command: The word after ``turtlewire``.
         run: Returns the exit status; None means 0.
-        expected: The expected errors; by default errors of bags, files and transforms.
+        expected: The expected errors; by default errors of turtlewire, files and values.
     """
 
     def guarded(args: argparse.Namespace) -> int:
-        from turtlewire.errors import BagError, TransformException
+        from turtlewire.errors import TurtlewireError
         from turtlewire.terminal.printable import printable_lines
 
-        caught = expected or (
-            *(BagError, TransformException),
-            *(ModuleNotFoundError, OSError, ValueError),
-        )
+        caught = expected or (TurtlewireError, ModuleNotFoundError, OSError, ValueError)
         try:
             return run(args) or 0
         except caught as error:
-            text = _text_of(error)
-            if hint := getattr(error, "hint", ""):
-                text = f"{text}{'' if text.rstrip().endswith('.') else '.'} {hint}"
-            print(f"turtlewire {command}: {printable_lines(text)}", file=sys.stderr)
+            print(f"turtlewire {command}: {printable_lines(_text_of(error))}", file=sys.stderr)
             return 2
 
     return guarded
@@ -167,6 +161,10 @@ def reporting_errors(
 
 def _text_of(error: Exception) -> str:
     """Return the error's message; system errors lose their number."""
+    from turtlewire.errors import TurtlewireError
+
+    if isinstance(error, TurtlewireError):
+        return error.in_one_line()
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     return str(error)
