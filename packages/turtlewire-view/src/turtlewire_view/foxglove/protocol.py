@@ -153,9 +153,9 @@ def text(op: str, **fields: Any) -> str:
     )
 
 
-def status(level: int, message: str, *, status_id: str | None = None) -> str:
-    """Return a line for the client's user; it replaces the line with the same id."""
-    return text("status", level=level, message=message, id=status_id)
+def status(level: int, message: str) -> str:
+    """Return a line for the client's user."""
+    return text("status", level=level, message=message)
 
 
 def message_data(subscription_id: int, time_ns: int, cdr: bytes) -> bytes:
