@@ -96,16 +96,10 @@ def _add_trajectory(commands: Any) -> None:
         "0.5)",
     )
     add_tf_topics(parser)
-    plot = parser.add_argument("--plot", metavar="FILE", help="Save a plot: .svg, .pdf or .png")
-    plot.completer = complete_files
-    parser.add_argument(
-        "--kind",
-        choices=("path", "positions", "angles", "speeds"),
-        default="path",
-        help="Kind of plot (default: %(default)s)",
-    )
+    _add_plot(parser, ("path", "positions", "angles", "speeds"), "path")
     parser.add_argument("--json", action="store_true", help="Print one JSON object")
-    parser.set_defaults(run=reporting_errors("trajectory", _trajectory), parser=parser)
+    run = reporting_errors("trajectory", _trajectory)
+    parser.set_defaults(run=run, parser=parser, kind="path")
 
 
 def _add_compare(commands: Any) -> None:
@@ -134,13 +128,8 @@ def _add_compare(commands: Any) -> None:
     )
     _add_pairing(parser)
     add_tf_topics(parser)
-    plot = parser.add_argument("--plot", metavar="FILE", help="Save a plot: .svg, .pdf or .png")
-    plot.completer = complete_files
-    parser.add_argument(
-        "--kind",
-        choices=("path", "error-path", "errors", "box", "histogram"),
-        help="Kind of plot (default: error-path; path for several estimates)",
-    )
+    kinds = ("path", "error-path", "errors", "box", "histogram")
+    _add_plot(parser, kinds, "error-path; path for several estimates")
     parser.add_argument(
         "--plane", default="xy", metavar="AXES", help="Axes of path plots (default: %(default)s)"
     )
@@ -180,6 +169,12 @@ def _add_pairing(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="Seconds to add to the stamps of the estimates (default: %(default)s)",
     )
+
+
+def _add_plot(parser: Any, kinds: tuple[str, ...], default: str) -> None:
+    plot = parser.add_argument("--plot", metavar="FILE", help="Save a plot: .svg, .pdf or .png")
+    plot.completer = complete_files
+    parser.add_argument("--kind", choices=kinds, help=f"Kind of plot (default: {default})")
 
 
 def _add_file(parser: Any, name: str, metavar: str, text: str, nargs: str | None = None) -> None:
