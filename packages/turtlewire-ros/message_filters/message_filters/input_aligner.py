@@ -88,7 +88,6 @@ class InputAligner:
         """Listen to filters, instead of those before; their order gives the indices."""
         self.disconnectAll()
         for index, each in enumerate(filters):
-            self._input(index)
             self._connections.append((each, each.registerCallback(self.add, index)))
 
     def disconnectAll(self) -> None:  # noqa: N802 -- ROS 2's name

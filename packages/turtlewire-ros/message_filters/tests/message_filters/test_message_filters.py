@@ -1,6 +1,7 @@
 """The filters by themselves, and on topics."""
 
 import random
+from types import SimpleNamespace
 
 import pytest
 
@@ -342,8 +343,10 @@ def test_the_cache_and_messages_without_a_stamp(capfd, monkeypatch):
     assert cache.getLast() is None
     assert capfd.readouterr().err.count("can not use message filters") == 1
     allowing = Cache(allow_headerless=True)
+    allowing.add(SimpleNamespace(header=SimpleNamespace(stamp=ros_time(5))))
+    assert allowing.getLatestTime() == ros_time(5)
     allowing.add(String(data="now"))
-    assert allowing.getLast().data == "now"
+    assert [message.data for message in allowing.cache_msgs] == ["now"], "one by default"
 
 
 def test_subscribers_on_topics(monkeypatch, collected):
