@@ -219,6 +219,8 @@ def test_a_stamp_smaller_than_its_offset(collected):
     left.signalMessage(at(105))
     assert collected.stamps() == [(105, 1)]
     assert list(synchronizer.queues[0]) == [-99]
+    synchronizer.add(at(50), synchronizer.queues[0])
+    assert list(synchronizer.queues[0]) == [-99, 50], "without its index, no offset is subtracted"
 
 
 @pytest.mark.parametrize("none", [False, None])
