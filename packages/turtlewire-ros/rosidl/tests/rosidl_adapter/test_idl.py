@@ -167,6 +167,7 @@ def test_rosbags_reads_the_same_types(tmp_path, name):
 def test_the_parser_finds_what_upstreams_finds(name):
     package, _, short = name.split("/")
     ours = parser.parse_message_string(package, short, source(name))
+    assert ours == parser.parse_message_string(package, short, source(name))
     theirs = upstream.parse_message_string(package, short, source(name))
     for mine, other in zip(
         (ours, *ours.fields, *ours.constants),
@@ -198,6 +199,7 @@ def test_services_and_actions_of_all_packages(tmp_path):
         ("int32 a twelve", parser.InvalidValue),
         ("int8 A=300", parser.InvalidValue),
         ("nothing x", parser.InvalidResourceName),
+        ("No-package/Part x", parser.InvalidResourceName),
         ("int32 a\nint32 a", ValueError),
         ("int32[0] a", TypeError),
     ],
@@ -205,6 +207,20 @@ def test_services_and_actions_of_all_packages(tmp_path):
 def test_mistakes_raise_clear_errors(text, error):
     with pytest.raises(error):
         parser.parse_message_string("p", "Message", text)
+
+
+def test_specifications_are_equal_if_their_names_types_and_values_are():
+    texts = ["int8 a 1", "int8 a 2", "int8 a", "int8 b", "uint8 a", "int8 A=1", "int8 A=2"]
+    specs = [parser.parse_message_string("p", "M", text) for text in texts]
+    specs += [parser.parse_message_string(*name, "int8 a") for name in (("p", "N"), ("q", "M"))]
+    assert all([one == other for other in specs].count(True) == 1 for one in specs)
+
+
+def test_an_indented_comment_belongs_to_what_is_above():
+    text = "# the message\n\n  # of nothing\nint8 a  # of a\n  # as well\n"
+    (ours,) = parser.parse_message_string("p", "M", text).fields
+    (theirs,) = upstream.parse_message_string("p", "M", text).fields
+    assert ours.annotations["comment"] == theirs.annotations["comment"] == ["of a", "as well"]
 
 
 def test_separators_count():
@@ -236,7 +252,11 @@ def test_types(text, expected):
     assert idl.get_idl_type(parser.Type(text, "p")) == expected
 
 
-def test_the_commands(tmp_path, monkeypatch):
+def test_the_commands(tmp_path, monkeypatch, capsys):
+    with pytest.raises(SystemExit):
+        main([])
+    required = "required: --package-name, --arguments-file, --output-dir, --output-file\n"
+    assert capsys.readouterr().err.endswith(required)
     package = tmp_path / "src"
     (package / "msg").mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>probes</name></package>")
@@ -263,6 +283,10 @@ def test_files_of_a_package_are_translated(tmp_path, monkeypatch, capsys):
         file.parent.mkdir(parents=True)
         file.write_text(text)
     monkeypatch.chdir(tmp_path / "package")
+    (field,) = parser.parse_message_file("probe", "msg/A.msg").fields
+    assert str(field) == "bool x"
+    assert parser.parse_service_file("probe", "srv/B.srv").srv_name == "B"
+    assert parser.parse_action_file("probe", "action/C.action").action_name == "C"
     out = tmp_path / "out"
     for cls, path in zip(
         (TranslateMsgToIDL, TranslateSrvToIDL, TranslateActionToIDL), texts, strict=True

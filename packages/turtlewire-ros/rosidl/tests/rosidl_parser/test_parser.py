@@ -45,6 +45,7 @@ module shapes {
       const char LETTER = 'x';
     };
     @verbatim (language="comment", text="A shape.\nTwo lines.")
+    @verbatim (language="rosidl_array_init", text="no comment")
     @transfer_mode(SHMEM_REF) @final
     struct Shape {
       @default (value=TRUE)
@@ -107,6 +108,14 @@ def parsed(name):
     return parse_idl_string(text).elements[-1]
 
 
+def of_service(found, real):
+    return [
+        (found.request_message, real.Request),
+        (found.response_message, real.Response),
+        (found.event_message, real.Event),
+    ]
+
+
 def test_all_fields_have_the_types_that_classes_have():
     names = [
         f"{package}/{kind}/{name}"
@@ -120,12 +129,15 @@ def test_all_fields_have_the_types_that_classes_have():
         found, real = parsed(name), get_interface(name)
         pairs = [(found, real)]
         if isinstance(found, Service):
-            pairs = [(found.request_message, real.Request), (found.response_message, real.Response)]
+            pairs = of_service(found, real)
         elif isinstance(found, Action):
             pairs = [
                 (found.goal, real.Goal),
                 (found.result, real.Result),
                 (found.feedback, real.Feedback),
+                (found.feedback_message, real.Impl.FeedbackMessage),
+                *of_service(found.send_goal_service, real.Impl.SendGoalService),
+                *of_service(found.get_result_service, real.Impl.GetResultService),
             ]
         for message, class_ in pairs:
             members = message.structure.members
@@ -138,7 +150,7 @@ def test_all_fields_have_the_types_that_classes_have():
 
 
 def test_an_action_brings_the_includes_that_it_needs():
-    text = interface_to_idl("p", Path("action/Go.action"), "int8 a\n---\n---\n")
+    text = interface_to_idl("p", Path("action/Go.action"), "wstring a 'é'\n---\n---\n")
     content = parse_idl_string(text)
     assert [include.locator for include in content.get_elements_of_type(Include)] == [
         "builtin_interfaces/msg/Time.idl",
@@ -146,7 +158,8 @@ def test_an_action_brings_the_includes_that_it_needs():
     ]
     (action,) = content.get_elements_of_type(Action)
     assert action.namespaced_type == NamespacedType(("p", "action"), "Go")
-    assert [member.name for member in action.goal.structure.members] == ["a"]
+    (member,) = action.goal.structure.members
+    assert (member.name, member.get_annotation_value("default")) == ("a", {"value": "é"})
 
 
 def test_a_file_and_its_place(tmp_path, capsys):
@@ -173,6 +186,10 @@ def test_a_file_and_its_place(tmp_path, capsys):
         ("enum A { B };", "'enum' is not read here"),
         ("const long A = 0x;", "expected a value, got '0x'"),
         ("struct A { long b; }; struct B { long b; };", "got A, B"),
+        (
+            "module p { struct A_Request { long b; }; }; struct A_Response { long b; };",
+            "got A_Request, A_Response",
+        ),
         ("struct A { long ; };", "expected a name, got ';'"),
         ("typedef long a[2]; struct A { a b[3]; };", "an array of arrays is not a valid field"),
         ("struct A { long b; ", "expected a name, got 'the end of the file'"),
