@@ -71,8 +71,10 @@ def value(evaluate, body: str) -> str:
         ("set(l a b c)\nlist(LENGTH l X)", "3"),
         ("set(l a b c)\nlist(GET l 0 -1 X)", "a;c"),
         ("set(l a b)\nlist(FIND l b X)", "1"),
+        ("set(l a b)\nlist(FIND l c X)", "-1"),
         ('set(l a b)\nlist(JOIN l ", " X)', "a, b"),
         ('set(X x.cpp y.py)\nlist(FILTER X EXCLUDE REGEX ".*\\\\.cpp$")', "y.py"),
+        ('set(X x.cpp y.py)\nlist(FILTER X INCLUDE REGEX ".*\\\\.cpp$")', "x.cpp"),
         ("set(X b a b)\nlist(REMOVE_DUPLICATES X)\nlist(SORT X)\nlist(REVERSE X)", "b;a"),
         ("set(X a b)\nlist(TRANSFORM X PREPEND msg/)\nlist(TRANSFORM X APPEND .msg)",
          "msg/a.msg;msg/b.msg"),
@@ -119,10 +121,16 @@ def value(evaluate, body: str) -> str:
         (('macro(m)\n  cmake_parse_arguments(ARG "FLAG" "ONE" "MANY" ${ARGN})\nendmacro()\n'
          "m(rest FLAG ONE 1 MANY 2 3)\n"
          "set(X ${ARG_FLAG} ${ARG_ONE} ${ARG_MANY} ${ARG_UNPARSED_ARGUMENTS})"), "TRUE;1;2;3;rest"),
+        (('set(P_ONE before)\ncmake_parse_arguments(P "FLAG" "ONE" "" a)\n'
+         'set(X "${P_FLAG} [${P_ONE}]")'), "FALSE []"),
         (('function(f a)\n  cmake_parse_arguments(PARSE_ARGV 1 P "" "ONE" "MANY")\n'
          '  set(X "${a};${P_ONE};${P_MANY};${P_UNPARSED_ARGUMENTS}" PARENT_SCOPE)\nendfunction()\n'
          "f(1 rest ONE 2 MANY 3 4)"), "1;2;3;4;rest"),
         ("get_filename_component(X /a/b.c.d NAME_WE)", "b"),
+        ("get_filename_component(X /a/b.c.d NAME_WLE)", "b.c"),
+        ("get_filename_component(X /a/b.c.d NAME)", "b.c.d"),
+        ("get_filename_component(X /a/b.c.d EXT)", ".c.d"),
+        ("get_filename_component(X /a/b.c.d LAST_EXT)", ".d"),
         ("get_filename_component(X /a/b.c.d DIRECTORY)", "/a"),
         ('string(SUBSTRING "abcdef" 1 3 X)', "bcd"), ('string(SUBSTRING "abc" 1 0 X)', ""),
         ('string(SUBSTRING "abc" 1 -1 X)', "bc"), ('string(SUBSTRING "abc" 3 -1 X)', ""),
@@ -147,7 +155,7 @@ def test_values(evaluate, body, expected):
     [
         ("ON", True), ("0", False), ("2.5", True), ("no_such_variable", False), ('"text"', False),
         ("YES AND NOT OFF", True), ("OFF OR ON", True), ("NOT ON OR ON", True),
-        ("(ON OR ON) AND OFF", False), ("ON OR ON AND OFF", True),
+        ("(ON OR ON) AND OFF", False), ("(ON OR OFF) AND ON", True), ("ON OR ON AND OFF", True),
         ("DEFINED PROJECT_NAME", True), ("DEFINED nothing", False), ("DEFINED ENV{HOME}", True),
         ('PROJECT_NAME STREQUAL "robot"', True), ('"${PROJECT_NAME}" STREQUAL robot', True),
         ('PROJECT_NAME MATCHES "^rob"', True), ("PROJECT_NAME MATCHES cat", False),
@@ -161,6 +169,9 @@ def test_values(evaluate, body, expected):
         ("b IN_LIST letters", True), ("z IN_LIST letters", False),
         ('EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/package.xml"', True), ("EXISTS nothing", False),
         ('IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"', True), ("TARGET lib", True),
+        ('IS_ABSOLUTE "${CMAKE_CURRENT_SOURCE_DIR}"', True), ("IS_ABSOLUTE a/b", False),
+        ("robot_SOURCE_DIR STREQUAL CMAKE_CURRENT_SOURCE_DIR", True),
+        ("PROJECT_BINARY_DIR STREQUAL robot_BINARY_DIR", True),
         ("TARGET nothing", False), ("COMMAND ament_package", True), ("COMMAND nothing", False),
         ('CMAKE_COMPILER_IS_GNUCXX OR CMAKE_CXX_COMPILER_ID MATCHES "Clang"', False),
         ("std_msgs_FOUND", True), ("nobody_has_this_FOUND", False),
@@ -229,10 +240,15 @@ def test_elseif(evaluate):
         ("configure_file(a.in a)", 4, "configure_file(): there is no file"),
         ("install(FILES a)", 4, "install(FILES) has no DESTINATION"),
         ("install(FILES a DESTINATION ../up)", 4, "is outside of the install folder"),
+        ("install(DIRECTORY a DESTINATION b PATTERN)", 4, "install(): PATTERN needs a value"),
+        ("install()", 4, "install() is not known here"),
         ("install(SCRIPT a.cmake)", 4, "install(SCRIPT) is not known here"),
         ("ament_python_install_package(robot)", 4, "there is no folder"),
+        ("ament_python_install_package(robot PACKAGE_DIR .)", 4, "/__init__.py"),
         ("ament_environment_hooks(a.sh)", 4, "there is no file"),
         ("rosidl_generate_interfaces(robot A.msg)", 4, "A.msg is not a msg/….msg, srv/….srv"),
+        ("rosidl_generate_interfaces(robot msg/A.txt)", 4, "msg/A.txt is not a msg/….msg, srv/"),
+        ("rosidl_generate_interfaces(robot C:/a/msg/A.msg)", 4, "C:/a/msg/A.msg"),
         ("rosidl_generate_interfaces(robot)", 4, "names no files"),
         ("xacro_add_files(a.xacro)", 4, "xacro_add_files(): there is no file"),
         ("xacro_add_files(package.xml)", 4, "name the output, or the file .xacro"),
@@ -263,7 +279,8 @@ def test_installed_files(evaluate, tmp_path):
     plan, _ = evaluate(
         'install(DIRECTORY "meshes/" urdf DESTINATION "share/${PROJECT_NAME}"\n'
         '  PATTERN "*.blend" EXCLUDE)\n'
-        "INSTALL(PROGRAMS walk.py DESTINATION lib/${PROJECT_NAME} RENAME walk) # walks\n"
+        "INSTALL(PROGRAMS walk.py DESTINATION lib/${PROJECT_NAME} RENAME walk\n"
+        "  PERMISSIONS OWNER_READ OWNER_EXECUTE) # walks\n"
         "install(FILES a DESTINATION ${CMAKE_INSTALL_PREFIX}/share/x OPTIONAL)\n"
         "install(TARGETS a b EXPORT c)\n"
     )
@@ -274,21 +291,27 @@ def test_installed_files(evaluate, tmp_path):
     assert directory.destination == "share/robot"
     assert [rule.excludes for rule in directory.rules] == [True]
     assert (program.kind, program.destination, program.rename) == ("PROGRAMS", "lib/robot", "walk")
+    assert program.sources == (f"{source}/walk.py",)
     assert (file.destination, file.optional) == ("share/x", True)
 
 
 def test_descriptions_of_plugins_are_installed_and_registered(evaluate, tmp_path):
     plan, _ = evaluate(
         "pluginlib_export_plugin_description_file(rqt_gui plugin.xml)\n"
+        "pluginlib_export_plugin_description_file(rviz_common plugin.xml)\n"
         "pluginlib_export_plugin_description_file(rqt_gui more/other.xml)\n"
     )
     source = tmp_path / "robot"
     assert [(install.sources, install.destination) for install in plan.installs] == [
         ((f"{source}/plugin.xml",), "share/robot"),
+        ((f"{source}/plugin.xml",), "share/robot"),
         ((f"{source}/more/other.xml",), "share/robot/more"),
     ]
     content = "share/robot/plugin.xml\nshare/robot/more/other.xml\n"
-    assert plan.resources == [("rqt_gui__pluginlib__plugin", "robot", content)]
+    assert plan.resources == [
+        ("rviz_common__pluginlib__plugin", "robot", "share/robot/plugin.xml\n"),
+        ("rqt_gui__pluginlib__plugin", "robot", content),
+    ]
 
 
 def test_globs(evaluate, tmp_path):
@@ -327,6 +350,8 @@ def test_a_missing_package_is_an_error_where_it_is_needed(evaluate):
         ":4: there is no package 'nobody_has_this_msgs'; add it to the workspace, source a "
         "workspace that has it, or install it"
     )
+    with pytest.raises(CMakeError, match=r"'nobody_has_this_msgs'[^$]*list\(COOK\) is not"):
+        evaluate("find_package(nobody_has_this_msgs REQUIRED)\nlist(COOK l)")
     plan, _ = evaluate("find_package(urdf REQUIRED)\nfind_package(urdf_of_nobody REQUIRED)")
     assert [":5: there is no package 'urdf_of_nobody'" in line for line in plan.missing] == [True]
     plan, _ = evaluate("if(BUILD_TESTING)\n  find_package(nobody_has_this_msgs REQUIRED)\nendif()")
@@ -507,6 +532,8 @@ def test_tests(evaluate, tmp_path):
         "  add_launch_test(test/two.py ARGS a:=b)\n"
         "  ament_add_test(three COMMAND echo hello WORKING_DIRECTORY test)\n"
         "  add_test(NAME four COMMAND compiled)\n"
+        "  add_test(NAME of_a_target COMMAND $<TARGET_FILE:compiled>)\n"
+        "  ament_add_test(without_command)\n"
         "  ament_add_pytest_test(five test/test_one.py SKIP_TEST)\n"
         '  add_launch_test(test/two.py TARGET six RUNNER "${x_DIR}/run_test_isolated.py")\n'
         "  ament_add_ros_isolated_pytest_test(seven test/test_one.py)\n"
