@@ -52,6 +52,7 @@ def value(evaluate, body: str) -> str:
         ('set(X a b "c d")', "a;b;c d"),
         ("set(X [[${not} replaced]])", "${not} replaced"),
         ("set(X [=[a]]b]=])", "a]]b"),
+        ("set(X [[two\\\nlines]])", "two\\\nlines"),
         ('set(X "a\\"b\\\\c\\${d}")', 'a"b\\c${d}'),
         ('set(X "two\\\nlines")', "twolines"),
         ("set(X a#comment\n)", "a"),
@@ -241,6 +242,7 @@ def test_elseif(evaluate):
         ("install(FILES a)", 4, "install(FILES) has no DESTINATION"),
         ("install(FILES a DESTINATION ../up)", 4, "is outside of the install folder"),
         ("install(DIRECTORY a DESTINATION b PATTERN)", 4, "install(): PATTERN needs a value"),
+        ("add_library()", 4, "add_library() needs a name"),
         ("install()", 4, "install() is not known here"),
         ("install(SCRIPT a.cmake)", 4, "install(SCRIPT) is not known here"),
         ("ament_python_install_package(robot)", 4, "there is no folder"),
@@ -399,10 +401,11 @@ def test_a_compiled_target_is_left_out_by_name(evaluate, body):
     )
 
 
-def test_many_compiled_targets_are_one_line(evaluate):
-    targets = "\n".join(f"add_executable(t{number} a.cpp)" for number in range(6))
+@pytest.mark.parametrize(("count", "rest"), [(4, " are"), (5, " and 1 more are")])
+def test_many_compiled_targets_are_one_line(evaluate, count, rest):
+    targets = "\n".join(f"add_executable(t{number} a.cpp)" for number in range(count))
     _, (line,) = evaluate(targets)[0].verdict()
-    assert "so t0, t1, t2, t3 and 2 more are left out" in line
+    assert f"so t0, t1, t2, t3{rest} left out" in line
 
 
 def test_the_executable_of_a_component_is_left_out_with_its_library(evaluate):
