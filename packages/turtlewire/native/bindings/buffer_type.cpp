@@ -30,7 +30,7 @@ PyObject* yes_or_no(BufferObject& buffer, const Lookup& asked) {
 
 PyObject* why_not(BufferObject& buffer, const Lookup& asked) {
   Failure failure;
-  if (!asked.can_transform(buffer, failure)) return nullptr;
+  if (!asked.lookup_failure(buffer, failure)) return nullptr;
   if (failure.status == Status::ok) Py_RETURN_NONE;
   return make_error(failure, Question::lookup, nb::find(buffer).ptr());
 }

@@ -44,6 +44,12 @@ struct Lookup {
     return is_plain() ? buffer.can_transform(target, source, t, timeout, failure)
                       : ask(buffer, nullptr, &failure);
   }
+  // What a lookup fails with; with a fixed frame, `can_transform` asks for the halves the other way
+  // round, and so finds another failure if both have one.
+  bool lookup_failure(BufferObject& buffer, Failure& failure) const {
+    Found found;
+    return ask(buffer, &found, &failure);
+  }
 
  private:
   bool take_times(const Values<kCount>& v) {

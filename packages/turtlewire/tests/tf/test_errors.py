@@ -74,6 +74,22 @@ def test_attributes(buffer: turtlewire.Buffer) -> None:
     assert {type(error) for error in (early, late, lonely)} == {errors.ExtrapolationException}
 
 
+def test_of_two_halves_without_an_answer_explain_returns_what_a_lookup_raises(
+    buffer: turtlewire.Buffer,
+) -> None:
+    for child in ("target", "source"):
+        buffer.set_transform("fixed", child, SECOND, NO_MOVE, NO_TURN)
+        buffer.set_transform("fixed", child, 2 * SECOND, NO_MOVE, NO_TURN)
+    names: Any = ("target", "source", 5 * SECOND)
+    how: Any = {"fixed_frame": "fixed", "target_stamp_ns": 7 * SECOND}
+    with pytest.raises(errors.ExtrapolationException, match=r"Requested time 5\.") as caught:
+        buffer.lookup_transform(*names, **how)
+    reason = buffer.explain(*names, **how)
+    assert (type(reason), str(reason)) == (errors.ExtrapolationException, str(caught.value))
+    # As in tf2, whose canTransform begins with the half of the target.
+    assert "Requested time 7." in buffer._can_transform_reason(*names, **how)
+
+
 def test_copies_keep_the_hint_and_the_attributes(buffer: turtlewire.Buffer) -> None:
     """A copy in another process cannot ask the buffer any more."""
     for error in failures(buffer):
