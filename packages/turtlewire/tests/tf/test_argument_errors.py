@@ -324,6 +324,7 @@ def test_frames_of_another_type(filled: turtlewire.Buffer) -> None:
         (filled.lookup_velocity,),
     ):
         assert text_of(TypeError, call, "a", 5, *arguments) == "source_frame must be str, not int"
+        assert text_of(TypeError, call, 5, "b", *arguments) == "target_frame must be str, not int"
     for call, *arguments in (
         (filled.set_transforms, [1], [[0, 0, 0, 0, 0, 0, 1]]),
         (filled.set_transform, 1, (0, 0, 0)),

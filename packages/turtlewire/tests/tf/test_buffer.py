@@ -751,13 +751,14 @@ class TestListeners:
         remove = buffer.on_change(lambda: seen.append(buffer.can_transform("a", "b")))
         buffer.set_transform("a", "b", 1, (0, 0, 0), NO_TURN)
         buffer.add_tf_message(tf_message(("a", "b", 2, (0, 0, 0, *NO_TURN))))
+        buffer.set_transforms("a", "b", [3], [[0, 0, 0, *NO_TURN]])
         with pytest.raises(errors.InvalidTransformError):
             buffer.set_transform("a", "a", 1, (0, 0, 0), NO_TURN)
-        assert seen == [True, True]
+        assert seen == [True, True, True]
         remove()
         remove()
-        buffer.set_transform("a", "b", 3, (0, 0, 0), NO_TURN)
-        assert len(seen) == 2
+        buffer.set_transform("a", "b", 4, (0, 0, 0), NO_TURN)
+        assert len(seen) == 3
 
     def test_fault_of_a_listener_is_reported(
         self, buffer: turtlewire.Buffer, monkeypatch: pytest.MonkeyPatch

@@ -188,6 +188,8 @@ def test_remove_stale(buffer: turtlewire.Buffer) -> None:
     for name, t in (("old", 1), ("new", 5)):
         buffer.set_transform("map", name, t * SECOND, (0, 0, 0), STILL)
     buffer.set_static_transform("map", "fixed", (0, 0, 0), STILL)
+    with pytest.raises(TypeError, match="before_ns must be an int"):
+        buffer.remove_stale(3e9)  # type: ignore[arg-type]
     assert buffer.remove_stale(3 * SECOND) == ["old"]
     assert buffer.frames() == ["map", "new", "fixed"]
 
@@ -209,6 +211,11 @@ def test_extrapolation(buffer: turtlewire.Buffer) -> None:
         buffer.lookup_transform("a", "b", 1, extrapolate_ns=SECOND - 2)
     with pytest.raises(ValueError, match="negative"):
         buffer.lookup_transform("a", "b", 1, extrapolate_ns=-1)
+    with pytest.raises(TypeError, match="extrapolate_ns must be an int"):
+        buffer.lookup_transform("a", "b", 1, extrapolate_ns=1e9)  # type: ignore[arg-type]
+    buffer.set_transform("map", "b", 5 * SECOND, (0, 0, 0), STILL)  # no motion in one parent
+    with pytest.raises(errors.ExtrapolationException, match="into the future"):
+        buffer.lookup_transform("map", "b", 6 * SECOND, extrapolate_ns=SECOND)
     # What is missing now is a connection, not data.
     buffer.set_static_transform("c", "d", (0, 0, 0), STILL)
     with pytest.raises(errors.ConnectivityException):
@@ -246,6 +253,8 @@ def test_latest_of_each_link(buffer: turtlewire.Buffer) -> None:
     assert (found.translation, found.stamp_ns) == ((10.0, 1.0, 1.0), 3 * SECOND)
     assert buffer.lookup_newest("map", "lamp").stamp_ns == 9 * SECOND
     assert buffer.lookup_newest("map", "base", max_age_ns=SECOND, now_ns=11 * SECOND).x == 10.0
+    assert buffer.lookup_newest("map", "base", max_age_ns=0, now_ns=10 * SECOND).x == 10.0
+    assert buffer.lookup_newest("map", "base", now_ns=99 * SECOND).x == 10.0
     with pytest.raises(errors.ExtrapolationException) as caught:
         buffer.lookup_newest("map", "hand", max_age_ns=SECOND, now_ns=11 * SECOND)
     error = caught.value
@@ -531,6 +540,17 @@ def test_a_path_that_is_known_does_not_lead_to_a_frame_of_the_same_number(core: 
     buffer.set_transform("map", "c", SECOND, (3.0, 0.0, 0.0), POSE[1])
     assert not buffer.can_transform(map_, a)
     assert buffer.lookup_transform(map_, "c").x == 3.0
+
+
+def test_a_stopped_clock_does_not_fill_the_memory(core: Any) -> None:
+    """Of the values of one stamp, a thousand are kept; the rates count all, as tf2's do."""
+    buffer = core.Buffer()
+    for x in range(1500):
+        buffer.set_transform("map", "base", SECOND, (x, 0, 0), STILL)
+    assert buffer._stamps("base").tolist() == [SECOND] * 1000
+    assert buffer.lookup_transform("map", "base", SECOND).x == 1499.0
+    buffer.set_transform("map", "base", 4 * SECOND, (0, 0, 0), STILL)
+    assert "rate: 500.333" in buffer.to_yaml()
 
 
 def test_removing_many_frames_takes_linear_time(core: Any) -> None:

@@ -73,7 +73,7 @@ def test_stamps_of_products(core):
     a, b = made(core, ("a", "b"), identity, 5), made(core, ("b", "c"), identity, 3)
     fixed = made(core, ("b", "c"), identity)
     assert (a @ b).stamp_ns == 3
-    assert (a @ fixed).stamp_ns == 5
+    assert (a @ fixed).stamp_ns == a.inverse().stamp_ns == 5
     assert (a @ made(core, ("b", "c"), identity, 0)).stamp_ns == 0
     assert (fixed @ made(core, ("c", "d"), identity)).stamp_ns is None
     with pytest.raises(ValueError, match="without a stamp"):
@@ -110,6 +110,8 @@ def test_unsuitable_points_and_matrices(core):
         core.Transform("a", "b", (0, 0))
     with pytest.raises(TypeError, match="source_frame must be str, not int"):
         core.Transform("a", 5, (0, 0, 0))
+    with pytest.raises(TypeError, match="target_frame must be str, not int"):
+        core.Transform(5, "b", (0, 0, 0))
 
 
 def test_euler_angles(core):

@@ -35,14 +35,17 @@ def lookup_newest(
     """The transform made of the newest data of each link, with the oldest of their stamps."""
     check_frames(target_frame=target_frame, source_frame=source_frame)
     max_age, now = moments(max_age_ns=max_age_ns, now_ns=now_ns)
-    if max_age is not None and now is None:
-        raise ValueError("max_age_ns needs now_ns, the present by the clock of the stamps")
-    if max_age is not None and max_age < 0:
-        raise ValueError("max_age_ns must not be negative")
+    oldest = None
+    if max_age is not None:
+        if now is None:
+            raise ValueError("max_age_ns needs now_ns, the present by the clock of the stamps")
+        if max_age < 0:
+            raise ValueError("max_age_ns must not be negative")
+        oldest = now - max_age
     with self._lock:
         pose, used = self._checked(
             lambda: self._tree.lookup_by(
-                target_frame, source_frame, now, lambda link: link.read_newest(now, max_age)
+                target_frame, source_frame, now, lambda link: link.read_newest(oldest)
             )
         )
         stamps = [self._tree.links[child].reached for child in used]

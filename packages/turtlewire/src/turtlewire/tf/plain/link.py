@@ -208,11 +208,9 @@ class LinkSamples:
             return reading
         return self._mix(i, stamp)
 
-    def read_newest(self, now: int | None, max_age: int | None) -> PoseSample | LookupStatus:
-        """Return the newest pose, unless it is older than ``max_age`` (None: any age)."""
-        if max_age is None or now is None or self.reached is None:
-            return self.read(None)
-        if now - self.reached > max_age:
+    def read_newest(self, oldest: int | None) -> PoseSample | LookupStatus:
+        """Return the newest pose, unless it is from before a time (None: any is new enough)."""
+        if oldest is not None and self.reached is not None and self.reached < oldest:
             return LookupStatus.FUTURE  # the data would have to reach further into the future
         return self.read(None)
 
