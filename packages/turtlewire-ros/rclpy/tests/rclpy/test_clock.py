@@ -123,7 +123,9 @@ def test_jump_callbacks_run_before_and_after():
     clock = ROSClock()
     clock.set_ros_time_override(ros_time(5))
     seen = []
-    threshold = JumpThreshold(min_forward=None, min_backward=None, on_clock_change=True)
+    threshold = JumpThreshold(
+        min_forward=Duration(nanoseconds=1), min_backward=None, on_clock_change=True
+    )
     with clock.create_jump_callback(
         threshold,
         pre_callback=lambda: seen.append(clock.ros_time_is_active),
@@ -131,6 +133,7 @@ def test_jump_callbacks_run_before_and_after():
             (clock.ros_time_is_active, jump.clock_change, jump.delta)
         ),
     ):
+        clock.set_ros_time_override(ros_time(6))  # no jump: it is not shown yet
         clock._set_ros_time_is_active(True)
         clock._set_ros_time_is_active(True)
         clock._set_ros_time_is_active(False)
@@ -193,6 +196,12 @@ def test_a_jump_callback_may_unregister_itself():
             ),
             "pre_callback must be callable if given",
         ),
+        (
+            lambda: Clock().create_jump_callback(
+                JumpThreshold(min_forward=None, min_backward=None), post_callback=1
+            ),
+            "post_callback must be callable if given",
+        ),
     ],
 )
 def test_bad_thresholds(make, text):
@@ -215,6 +224,9 @@ def test_sleep_lasts_until_the_time(clock_type):
     clock = Clock(clock_type=clock_type)
     until = clock.now() + Duration(seconds=0.02)
     assert clock.sleep_until(until, FakeContext()) is True
+    assert clock.now() >= until
+    until = clock.now() + Duration(seconds=0.02)
+    assert clock.sleep_for(Duration(seconds=0.02), FakeContext()) is True
     assert clock.now() >= until
     assert clock.sleep_for(Duration(seconds=-1), FakeContext()) is True
 

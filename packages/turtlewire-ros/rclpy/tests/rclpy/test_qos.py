@@ -90,6 +90,7 @@ def test_durations_and_numbers_reach_the_wire():
     )
     assert wire.avoid_ros_namespace_conventions
     assert qos_profile_best_available.to_wire().reliability is wire_qos.Reliability.BEST_AVAILABLE
+    assert qos_profile_best_available.deadline.nanoseconds == 2**63 - 2, "rmw's mark"
 
 
 def test_incomplete_profiles():
