@@ -85,6 +85,14 @@ def test_type_hashes():
     )
     known = TypeHash.from_string(HASH)
     assert (known.version, known.value.hex(), str(known)) == (1, HASH[7:], HASH)
+    assert (TypeHash().version, str(TypeHash(0, known.value)), known == HASH) == (
+        -1,
+        "INVALID",
+        False,
+    )
+    for wrong in ({"version": "1"}, {"value": HASH}):
+        with pytest.raises(AssertionError):
+            TypeHash(**wrong)
 
 
 def test_a_service_s_text_has_its_two_endpoints():
