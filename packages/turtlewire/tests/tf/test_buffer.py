@@ -853,6 +853,7 @@ def test_frames_beyond_the_limit_are_refused_and_known_ones_go_on(core):
     assert put(buffer, "a", "b", 2) == put(buffer, "map", "a", 2) == ""  # moves and a new parent
     assert buffer.lookup_transform("map", "b", 2).translation == (2.0, 0.0, 0.0)
     assert "too_many_frames" in buffer._describe_refusals()["c"][0]
+    assert buffer._refusal_kinds() == 0
 
 
 def test_both_frames_of_a_transform_count(core):

@@ -110,6 +110,7 @@ def test_refusals_are_counted(buffer: turtlewire.Buffer) -> None:
     refused = faults.refusals(buffer)
     assert refused["base"].counts == {"old_data": 3, "nan_value": 1, "self_transform": 1}
     assert refused["base"].last.startswith("TF_SELF_TRANSFORM")
+    assert buffer._refusal_kinds() == 3
     for i in range(2000):
         buffer._set_transform(f"x{i}", f"x{i}", 1, (0, 0, 0), STILL, False, "me")
     refused = faults.refusals(buffer)
@@ -127,6 +128,10 @@ def test_malformed_messages_are_counted(buffer: turtlewire.Buffer) -> None:
         "4294967295 transforms are announced, which do not fit into 8 bytes",
         "broken",
     )
+    buffer._rename_sender("another", "/another")
+    assert faults.malformed(buffer).sender == "broken"
+    buffer._rename_sender("broken", "/node")
+    assert faults.malformed(buffer).sender == "/node"
 
 
 def test_a_frame_id_that_is_no_text_is_refused_and_the_rest_kept(buffer: turtlewire.Buffer) -> None:

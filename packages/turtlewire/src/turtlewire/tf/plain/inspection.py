@@ -210,12 +210,13 @@ def describe_links(self: SharedTree, most: int) -> list[LinkRow]:
 def describe_refusals(self: SharedTree) -> dict[str, tuple[dict[str, int], str]]:
     """For `turtlewire.tf.links` and `turtlewire.tf.faults`."""
     with self._lock:
+        refusals = self._tree.refusals
         return {
             child: (
-                {verdict.value: count for verdict, count in record.counts.items()},
-                record.last.explain(),
+                {verdict.value: count for verdict, count in counts.items()},
+                refusals.last[child].explain(),
             )
-            for child, record in self._tree.refusals.by_child.items()
+            for child, counts in refusals.counts.items()
         }
 
 

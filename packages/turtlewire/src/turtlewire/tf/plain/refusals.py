@@ -20,36 +20,31 @@ class MalformedMessages(NamedTuple):
     sender: str = ""
 
 
-class RefusalRecord:
-    """The number of rejected transforms of a child frame by reason, and the last of them."""
-
-    def __init__(self, last: Refusal) -> None:
-        self.counts: Counter[Verdict] = Counter()
-        self.last = last
-
-
 class Refusals:
     """All refusals of a tree.
 
     Attributes:
+        counts: The number of rejected transforms of each child frame, by reason.
+        last: The last of each child frame.
         kinds: The number of pairs of a frame and a reason, without the lack of room.
     """
 
     def __init__(self) -> None:
         self.kinds = 0
-        self.by_child: dict[str, RefusalRecord] = {}
+        self.counts: dict[str, Counter[Verdict]] = {}
+        self.last: dict[str, Refusal] = {}
         self.malformed = MalformedMessages()
 
     def add(self, refusal: Refusal) -> None:
         """Count a transform that was not taken."""
         child = refusal.child
-        if len(self.by_child) >= _MOST_FRAMES and child not in self.by_child:
+        if len(self.counts) >= _MOST_FRAMES and child not in self.counts:
             child = "(others)"
-        record = self.by_child.setdefault(child, RefusalRecord(refusal))
-        record.counts[refusal.verdict] += 1
-        if record.counts[refusal.verdict] == 1 and refusal.verdict.value != "too_many_frames":
+        counts = self.counts.setdefault(child, Counter())
+        counts[refusal.verdict] += 1
+        if counts[refusal.verdict] == 1 and refusal.verdict.value != "too_many_frames":
             self.kinds += 1
-        record.last = refusal
+        self.last[child] = refusal
 
     def add_malformed(self, fault: str, sender: str) -> None:
         """Count a message that could not be decoded."""
