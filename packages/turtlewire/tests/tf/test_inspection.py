@@ -285,7 +285,8 @@ def test_the_newest_of_a_cleared_link_is_no_data(buffer: turtlewire.Buffer) -> N
     buffer.clear()
     with pytest.raises(errors.TransformException) as caught:
         buffer.lookup_newest("map", "base", max_age_ns=1, now_ns=SECOND)
-    assert caught.value.reason == "no data"
+    error = caught.value
+    assert (error.reason, error.oldest_ns, error.newest_ns) == ("no data", None, None)
 
 
 def test_time_range(buffer: turtlewire.Buffer) -> None:

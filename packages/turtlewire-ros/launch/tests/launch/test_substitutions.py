@@ -73,6 +73,7 @@ def test_environment_variable(context, monkeypatch):
 def test_paths(context):
     path = PathJoinSubstitution(["share", ["turtle", TextSubstitution(text="sim")], "launch"])
     assert path.perform(context) == os.path.join("share", "turtlesim", "launch")
+    assert PathJoinSubstitution("share").perform(context) == "share"
     with pytest.raises(SubstitutionFailure, match="outside of a launch file"):
         ThisLaunchFile().perform(context)
     with pytest.raises(SubstitutionFailure, match="outside of a launch file"):
@@ -173,6 +174,7 @@ def test_command(context, capsys):
     noisy = [python, " -c \"import sys; sys.stderr.write('oh'); print(1)\""]
     assert Command(noisy, on_stderr="ignore").perform(context) == "1\n"
     assert "oh" in Command(noisy, on_stderr="capture").perform(context)
+    assert capsys.readouterr().out == ""
     assert Command(noisy, on_stderr="warn").perform(context) == "1\n"
     assert "executed command showed stderr output" in capsys.readouterr().out
     with pytest.raises(SubstitutionFailure, match="executed command showed stderr output"):
@@ -211,11 +213,11 @@ def test_files(context, tmp_path):
 
 
 def test_anonymous_names_are_kept_within_a_launch(context):
-    name = AnonName("rviz").perform(context)
-    assert name.startswith("rviz_")
+    name = AnonName("my rviz").perform(context)
+    assert name.startswith("my_rviz_")
     assert name.isidentifier()
-    assert AnonName("rviz").perform(context) == name
-    assert AnonName("rviz").perform(LaunchContext()) != name
+    assert AnonName("my rviz").perform(context) == name
+    assert AnonName("my rviz").perform(LaunchContext()) != name
 
 
 def test_locals(context):
@@ -223,6 +225,9 @@ def test_locals(context):
     assert LocalSubstitution("event.strerror").perform(context) == "broken"
     assert LocalSubstitution("event.args[0]").perform(context) == "5"
     assert LocalSubstitution("event.strerror", "why").describe() == "LocalVar('why')"
+    assert LocalSubstitution("event.strerror").describe() == "LocalVar('event.strerror')"
+    with pytest.raises(TypeError, match=r"expected Text object got '<class 'int'>'"):
+        LocalSubstitution(5)
     with pytest.raises(SubstitutionFailure, match=r"no local 'event\.nothing'"):
         LocalSubstitution("event.nothing").perform(context)
 
