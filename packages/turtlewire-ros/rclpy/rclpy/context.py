@@ -103,7 +103,7 @@ class Context:
             if self._wire is not None:
                 raise RuntimeError("Context.init() must only be called once")
             self._arguments = Arguments.parse_global(sys.argv if args is None else args)
-            self._wire = self._joined(domain_id, self._arguments if initialize_logging else None)
+            self._wire = self._joined(domain_id, self._arguments, initialize_logging)
             self._valid = True
             _open_contexts.add(self)
             atexit.unregister(_close_open_contexts)
@@ -111,14 +111,16 @@ class Context:
             signals.listeners.add(self)
             self._initialized_logging = initialize_logging
 
-    def _joined(self, domain_id: int | None, logging: Arguments | None) -> base.Context:
-        """Open the middleware, and initialize logging unless it is None; both or neither."""
+    def _joined(
+        self, domain_id: int | None, arguments: Arguments, initialize_logging: bool
+    ) -> base.Context:
+        """Open the middleware, and initialize logging if asked to; both or neither."""
         from turtlewire.errors import WireError
         from turtlewire.wire import open_context
 
         with ExitStack() as if_it_fails:
             try:
-                wire = open_context(domain_id)
+                wire = open_context(domain_id, enclave=arguments.enclave)
             except WireError as error:
                 # The settings are at fault: the excepthook shows one line instead of a traceback.
                 error.is_of_environment = True
@@ -126,11 +128,11 @@ class Context:
             if_it_fails.callback(wire.close)
             # Discovery begins here, so that the first query of the graph finds other nodes.
             _ = wire.graph
-            if logging is not None:
+            if initialize_logging:
                 is_first = _count_logging(1) == 1
                 if_it_fails.callback(_count_logging, -1)
                 if is_first:  # as in ROS 2, the first context's command line decides
-                    logging.configure_logging()
+                    arguments.configure_logging()
             if_it_fails.pop_all()
         return wire
 

@@ -174,11 +174,10 @@ class Arguments:
     def followed_by(self, other: Arguments) -> Arguments:
         """Return these arguments (of a node) before ``other`` (of the process).
 
-        Remap rules and parameters of these win.
+        Remap rules and parameters of these win. As in ROS 2, all else is the process's.
         """
         both = Arguments()
-        # Everything but rules and parameters is the node's own.
-        both.__dict__.update(self.__dict__)
+        both.enclave = other.enclave
         # The first rule that applies wins, but the last value of a parameter.
         both.rules = self.rules + other.rules
         both.parameter_maps = other.parameter_maps + self.parameter_maps

@@ -10,10 +10,12 @@ from tests.golden.cli.captures import captures, inputs
 from tests.programs import run_python
 
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy.context import Context
 from rclpy.impl import log_output
 from rclpy.impl.arguments import Arguments
 from rclpy.impl.rcl_lexer import Lexeme, Lexer, RuleError
 from rclpy.impl.rcl_yaml_param_parser import parse_file, parse_value
+from rclpy.node import Node
 from turtlewire.wire import names
 
 #: Runs of a whole node (it ends by Ctrl-C; a parameter of turtlesim has the wrong type):
@@ -458,6 +460,16 @@ def test_a_parameter_file(tmp_path):
 def test_local_parameters_win_over_global_ones():
     local, process = (Arguments.parse(["--ros-args", "-p", rule]) for rule in ("a:=1", "n:a:=2"))
     assert local.followed_by(process).parameter_overrides("/n") == {"a": 1}
+
+
+def test_nodes_are_in_the_enclave_of_the_process(monkeypatch):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+    context = Context()
+    context.init(args=["--ros-args", "--enclave", "/robots/one"])
+    node = Node("a", context=context, cli_args=["--ros-args", "--enclave", "/of/the/node"])
+    assert node.get_node_names_and_namespaces_with_enclaves() == [("a", "/", "/robots/one")]
+    node.destroy_node()
+    context.try_shutdown()
 
 
 @pytest.mark.parametrize(
