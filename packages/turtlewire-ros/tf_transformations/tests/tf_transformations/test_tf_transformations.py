@@ -458,7 +458,9 @@ def test_slerp_is_the_rotation_on_the_way(first, second, fraction):
     step = (other * one.inv()).as_rotvec()
     if np.linalg.norm(step) > 3.1:
         return
-    found = Rotation.from_quat(tft.quaternion_slerp(first, second, fraction))
+    between = tft.quaternion_slerp(first, second, fraction)
+    assert np.linalg.norm(between) == pytest.approx(1.0)
+    found = Rotation.from_quat(between)
     assert (found * (Rotation.from_rotvec(fraction * step) * one).inv()).magnitude() < 1e-6
 
 
@@ -500,10 +502,10 @@ def test_vectors():
                 data.reshape(-1) if axis is None else data, axis=axis, keepdims=axis is not None
             ),
         )
-    out = np.empty((2, 4))
+    out = np.zeros((2, 4))
     assert tft.vector_norm(data, axis=1, out=out) is None
     assert np.allclose(out, np.sqrt((data * data).sum(axis=1)))
-    out = np.empty(data.shape)
+    out = np.zeros(data.shape)
     assert tft.unit_vector(data, axis=1, out=out) is None
     assert np.allclose(out, tft.unit_vector(data, axis=1))
 
@@ -567,9 +569,12 @@ def test_arcball_keeps_to_an_axis():
         for unit in (np.array([1, 1, 0]) / math.sqrt(2), np.array([-1, 1, 0]) / math.sqrt(2))
     )
     ball.setaxes(None)
-    ball.down([0.3, -0.2])
-    ball.drag([0.3, -0.2])
-    assert np.allclose(tft.Arcball(ball.matrix()).matrix(), ball.matrix())
+    free = tft.Arcball(ball.matrix())
+    free.place([0, 0], 1)
+    for each in (ball, free):
+        each.down([0.3, -0.2])
+        each.drag([-0.4, 0.1])
+    assert np.allclose(ball.matrix(), free.matrix())
     with pytest.raises(ValueError, match="not a quaternion or matrix"):
         tft.Arcball([1.0, 2.0])
 
@@ -577,6 +582,7 @@ def test_arcball_keeps_to_an_axis():
 def test_arcball_helpers():
     assert np.allclose(tft.arcball_map_to_sphere([10, 0], [0, 0], 1), [1, 0, 0])
     assert np.allclose(tft.arcball_map_to_sphere([0, 0], [0, 0], 1), [0, 0, 1])
+    assert np.allclose(tft.arcball_map_to_sphere([7, 3], [1, 6], 10), [0.6, 0.3, math.sqrt(0.55)])
     assert np.allclose(tft.arcball_constrain_to_axis([0, 0, 1], [0, 0, 1]), [1, 0, 0])
     assert np.allclose(tft.arcball_constrain_to_axis([0, 1, 0], [0, 1, 0]), [-1, 0, 0])
     assert np.allclose(tft.arcball_constrain_to_axis([0.6, 0, -0.8], [0, 1, 0]), [-0.6, 0, 0.8])
