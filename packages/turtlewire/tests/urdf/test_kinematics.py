@@ -3,6 +3,7 @@
 import io
 import pickle
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -343,6 +344,23 @@ TWO_JOINTS = """<robot name="arm"><link name="base"/><link name="hand"/><link na
                 ),
             )
             for wrong in ("elbow", None)
+        ),
+        (
+            SimpleNamespace(name=["elbow"], position=[1.0]),  # as a JointState
+            TypeError,
+            (
+                "positions must be a dict by name of the joint, or have the shape (N, 2), with a "
+                "column for each of the joints elbow, wrist, not SimpleNamespace; write "
+                "dict(zip(message.name, message.position))"
+            ),
+        ),
+        (
+            5,
+            ValueError,
+            (
+                "positions must be a dict by name of the joint, or have the shape (N, 2), with a "
+                "column for each of the joints elbow, wrist, not a number"
+            ),
         ),
         ({"elbw": 1}, KeyError, "the robot 'arm' has no free joint 'elbw'. Did you mean: elbow"),
         ({5: 1}, KeyError, "the robot 'arm' has no free joint 5. It has elbow, wrist"),

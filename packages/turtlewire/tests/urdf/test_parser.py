@@ -142,6 +142,9 @@ LINK_FAULTS = [
     ('<link name="a"><visual><geometry/></visual></link>', ["Geometry tag contains no child element.", "Could not parse visual element for Link [a]"]),
     ('<link name="a"><collision><geometry><cone/></geometry></collision></link>', ["Unknown geometry type 'cone'", "Could not parse collision element for Link [a]"]),
     ('<link name="a"><visual><geometry><cylinder radius="1"/></geometry></visual></link>', ["Cylinder shape must have both length and radius attributes", "Could not parse visual element for Link [a]"]),
+    ('<link name="a"><visual><geometry><cylinder length="1"/></geometry></visual></link>', ["Cylinder shape must have both length and radius attributes", "Could not parse visual element for Link [a]"]),
+    ('<link name="a"><visual><geometry><sphere/></geometry></visual></link>', ["Sphere shape must have a radius attribute", "Could not parse visual element for Link [a]"]),
+    ('<link name="a"><collision><geometry><box/></geometry></collision></link>', ["Box shape has no size attribute", "Could not parse collision element for Link [a]"]),
 ]  # fmt: skip
 
 
@@ -177,9 +180,9 @@ def test_a_fault_in_a_link_leaves_the_rest_of_it_out(link, texts):
 
 def test_items_before_a_faulty_mesh_are_kept():
     ball, mesh = "<geometry><sphere radius='1'/></geometry>", "<geometry><mesh/></geometry>"
-    parts = f"<visual>{ball}</visual><visual>{mesh}</visual><collision>{ball}</collision>"
+    parts = f"<visual name='v'>{ball}</visual><visual>{mesh}</visual><collision>{ball}</collision>"
     found = Robot.from_xml(robot(f'<link name="a">{parts}</link>'))
-    assert len(found.links["a"].visuals) == 1
+    assert [visual.name for visual in found.links["a"].visuals] == ["v"]
     assert found.links["a"].collisions == ()
 
 
@@ -197,6 +200,10 @@ def test_an_unknown_material_is_a_warning():
     found = Robot.from_xml(robot("", f'<link name="l">\n\n{visual}</link>'))
     assert [warning.text for warning in found.warnings] == ["link 'l' material 'm' undefined."]
     assert found.warnings[0].place == 'line 5 in <visual> in <link name="l">'
+    assert list(log_lines(found.warnings[0])) == [
+        "Warning: link 'l' material 'm' undefined.",
+        '         at line 5 in <visual> in <link name="l">',
+    ]
 
 
 def test_elements_of_xacro_are_one_warning():
@@ -299,6 +306,13 @@ def test_broken_xml_is_one_error_with_a_line(text, what, line):
     error = refusal(text)
     assert what in str(error)
     assert error.line == line
+
+
+def test_the_number_of_elements_is_limited(monkeypatch):
+    monkeypatch.setattr("turtlewire.urdf.elements.MAX_ELEMENTS", 3)
+    links = [f'<link name="{name}"/>' for name in "abc"]
+    assert str(refusal(robot(*links[:2]))).startswith("Failed to find root link")
+    assert str(refusal(robot(*links))) == "The file has more than 3 elements"
 
 
 def test_nesting_up_to_the_limit_is_read():
