@@ -7,7 +7,7 @@ from tests.golden.cli.captures import capture
 from rclpy.duration import Infinite
 from rclpy.endpoint_info import EndpointTypeEnum, ServiceEndpointInfo
 from rclpy.node import Node
-from rclpy.qos import LivelinessPolicy, QoSProfile
+from rclpy.qos import HistoryPolicy, LivelinessPolicy, QoSProfile
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 from rclpy.type_hash import TypeHash
 from tests import places
@@ -74,6 +74,8 @@ def test_from_the_wire():
     )
     assert str(nobody.topic_type_hash) == "INVALID"
     assert nobody != info
+    everything = TopicEndpointInfo(qos_profile=QoSProfile(history=HistoryPolicy.KEEP_ALL))
+    assert "  History (Depth): KEEP_ALL\n" in str(everything)
 
 
 def test_type_hashes():
