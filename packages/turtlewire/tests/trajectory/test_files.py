@@ -138,6 +138,14 @@ def test_wrong_files(tmp_path, text, complaint):
         Trajectory.load(path, format="tum")
 
 
+def test_nanoseconds_that_do_not_fit(tmp_path):
+    (tmp_path / "walk.csv").write_text(f"{2**63},0,0,0,0,0,0,1\n")
+    with pytest.raises(ValueError, match=r"is beyond the year 2262$"):
+        Trajectory.load(tmp_path / "walk.csv")
+    (tmp_path / "walk.csv").write_text(f"{2**63 - 1},0,0,0,0,0,0,1\n")
+    assert Trajectory.load(tmp_path / "walk.csv").stamps_ns.tolist() == [2**63 - 1]
+
+
 POSES = ["0 0 0 0 0 0 1", "1 0 0 0 0 0 1", "2 0 0 0 0 0 1"]
 
 

@@ -261,6 +261,7 @@ def test_of_two_poses_as_near_the_earlier_is_taken(stamp, nearest):
     many, one = Trajectory(np.array([0, 100, 200]), still), Trajectory(np.array([stamp]), still[:1])
     assert [rows.tolist() for rows in associate(many, one, 50)] == [[nearest], [0]]
     assert [rows.tolist() for rows in associate(one, many, 50)] == [[0], [nearest]]
+    assert [rows.tolist() for rows in associate(one, one, 0)] == [[0], [0]]
 
 
 def test_different_clocks_are_reported():
@@ -271,6 +272,16 @@ def test_different_clocks_are_reported():
     assert len(compare(early, late, offset_ns=-3600 * 10**9).estimate) == len(early)
     with pytest.raises(ValueError, match=r"an offset of -3600\.000 s makes them begin together"):
         compare(early, late, offset_ns=50 * 10**9)  # what was tried does not change the advice
+    for one, other, covered in (
+        (early, early[:0], r"17\d+\.129 to 17\d+\.076 s, the estimate nothing$"),
+        (early[:0], early, r"nothing, the estimate 17\d+\.129 to 17\d+\.076 s$"),
+    ):
+        with pytest.raises(ValueError, match=f"the reference covers {covered}"):
+            compare(one, other)
+    with pytest.raises(ValueError, match="a trajectory without poses cannot be compared"):
+        compare(early[:0], early[:0])
+    with pytest.raises(ValueError, match="max_diff_ns is -1; it must not be negative"):
+        compare(early, late, max_diff_ns=-1)
 
 
 def test_the_table_is_evos(pair):
