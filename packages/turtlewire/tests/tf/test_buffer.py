@@ -573,6 +573,8 @@ class TestTransform:
         t = core.Transform("a", "b", (1, 2, 3), QUARTER, stamp_ns=5)
         assert np.array_equal(np.asarray(t), [1, 2, 3, *QUARTER])
         assert np.asarray(t, dtype=np.float32).dtype == np.float32
+        with pytest.raises(ValueError, match="its array is always a copy"):
+            t.__array__(copy=False)
         assert np.allclose(t.as_matrix(), [[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]])
 
 

@@ -114,13 +114,15 @@ def test_svg_of_each_shape():
     shapes = (
         FilledBox(1, 2, 3, 4, "#111111"),
         Line(((0, 0), (5, 6)), "#222222", 2.0, dashed=True),
+        Line(((0, 0), (5, 6)), "#222222"),
         Text(7, 8, "hi", 9, "#333333", bold=True),
     )
     root = ET.fromstring(svg_from_drawing(Drawing(100, 50, shapes)))
     assert root.get("viewBox") == "0 0 100 50"
-    rect, line, text = root
+    rect, line, solid, text = root
     assert (rect.get("x"), rect.get("height"), rect.get("stroke")) == ("1.0", "4.0", "#111111")
     assert (line.get("points"), line.get("stroke-dasharray")) == ("0.0,0.0 5.0,6.0", "5 3")
+    assert solid.get("stroke-dasharray") is None
     assert (text.text, text.get("font-weight"), text.get("font-size")) == ("hi", "bold", "9")
 
 
