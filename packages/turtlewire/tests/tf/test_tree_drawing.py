@@ -4,6 +4,7 @@ import subprocess
 import sys
 from xml.etree import ElementTree as ET
 
+import numpy as np
 import pytest
 import yaml
 from hypothesis import given
@@ -311,16 +312,22 @@ def test_a_transform_shows_numbers_and_a_picture(filled):
     assert [text.text for text in root.iter(f"{SVG}text")] == ["world", "turtle1"]
     lines = [line.get("points") for line in root.iter(f"{SVG}polyline")]
     assert len(lines) == 7  # two frames of three axes, and the way from one to the other
-    for point in " ".join(lines).split():
-        assert all(0 <= float(value) <= 190 for value in point.split(","))
+    ends = np.array([[point.split(",") for point in line.split()] for line in lines], float)
+    assert ((ends >= 0) & (ends <= 190)).all()
+    way, axes = ends[0], ends[1:]
+    assert way == pytest.approx(axes[[0, 3], 0], abs=0.1)
+    x, y, z, source_x, source_y, source_z = axes[:, 1] - axes[:, 0]
+    assert np.array([source_x, source_y, source_z]) == pytest.approx(np.array([y, -x, z]), abs=0.3)
+    assert way[1] - way[0] == pytest.approx((3 * x + 4 * y) / (0.4 * 5), abs=0.5)
 
 
 @pytest.mark.parametrize("translation", [(0.0, 0.0, 0.0), (1e-9, 0.0, 0.0), (1e9, -1e9, 1e9)])
 def test_any_distance_fits(buffer, translation):
-    buffer.set_static_transform("<map>", "a & b", translation, (0.0, 0.0, 0.0, 1.0))
-    root = ET.fromstring(buffer.lookup_transform("<map>", "a & b")._repr_html_())
+    name = f"a & {'b' * 30}"
+    buffer.set_static_transform("<map>", name, translation, (0.0, 0.0, 0.0, 1.0))
+    root = ET.fromstring(buffer.lookup_transform("<map>", name)._repr_html_())
     labels = list(root.iter(f"{SVG}text"))
-    assert [label.text for label in labels] == ["<map>", "a & b"]
+    assert [label.text for label in labels] == ["<map>", f"a & {'b' * 19}…"]
     assert abs(float(labels[0].get("y")) - float(labels[1].get("y"))) > 10 or translation == (
         1e9,
         -1e9,

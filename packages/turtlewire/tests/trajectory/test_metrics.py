@@ -230,6 +230,22 @@ def test_a_straight_line_leaves_the_rotation_open():
         align(trajectory, trajectory, "se3")
 
 
+def test_distances_speeds_and_angles_are_evos(pair):
+    for trajectory in pair:
+        theirs = evo_trajectory(trajectory)
+        assert trajectory.distances == pytest.approx(theirs.distances)
+        assert trajectory.path_length == pytest.approx(theirs.path_length)
+        angles = np.unwrap(theirs.get_orientations_euler("sxyz"), axis=0)
+        assert trajectory.euler == pytest.approx(angles, abs=1e-6)
+        assert trajectory.speeds == pytest.approx(
+            theirs.speeds, rel=1e-4
+        )  # their stamps are floats
+    none = pair[0][:0]
+    assert (none.distances.tolist(), none.path_length, none.duration_ns) == ([], 0.0, 0)
+    step = Trajectory([0, 1_500_000_000], [(0, 0, 0, 0, 0, 0, 1), (3, 0, 4, 0, 0, 0, 1)])
+    assert repr(step) == "<Trajectory: 2 poses, 1.500 s, 5.000 m>"
+
+
 @pytest.mark.parametrize("swapped", [False, True])
 @pytest.mark.parametrize("offset_ns", [0, 20_000_000])
 def test_association(swapped, offset_ns):
