@@ -81,6 +81,7 @@ def test_types(text, type_):
         ("wstring<=1 x 'ä'", "ä"),
         ("string<=2 x 'ä'", "ä"),
         ("\tint32\tx\t3", 3),
+        ("int32   x   3", 3),
     ],
 )
 def test_defaults(line, default):
@@ -88,6 +89,20 @@ def test_defaults(line, default):
     assert field.name == "x"
     assert field.default == default
     assert type(field.default) is type(default)
+
+
+@pytest.mark.parametrize("bits", [8, 16, 32, 64])
+def test_integers_reach_from_their_least_to_their_greatest_value(bits):
+    half = 2 ** (bits - 1)
+    for type_, least, greatest in (
+        (f"int{bits}", -half, half - 1),
+        (f"uint{bits}", 0, 2**bits - 1),
+    ):
+        for value in (least, greatest):
+            assert _field(f"{type_} x {value}").default == value
+        for value in (least - 1, greatest + 1):
+            with pytest.raises(InterfaceError, match=f"{value} is outside of {type_} "):
+                _field(f"{type_} x {value}")
 
 
 def test_constants():
@@ -120,6 +135,8 @@ def test_services_and_actions_have_parts():
     ("line", "reason"),
     [
         ("int33 x", "'int33' is not a type"),
+        ("int8<=5 x", "'int8<=5' is not a type"),
+        ("Ärger x", "'Ärger' is not a type"),
         ("int32", "'' is not a valid field name"),
         ("int32 Name", "'Name' is not a valid field name"),
         ("int32 a__b", "'a__b' is not a valid field name"),
@@ -160,6 +177,8 @@ def test_lines_of_later_parts_are_counted_from_the_top():
 def test_names_and_parts_are_checked():
     with pytest.raises(InterfaceError, match="the name 'x' is used twice"):
         parse_message("demo_interfaces/msg/X", "int32 x\nint8 x")
+    with pytest.raises(InterfaceError, match="the name 'X' is used twice"):
+        parse_message("demo_interfaces/msg/X", "int32 X=1\nint32 X=2")
     with pytest.raises(InterfaceError, match="'point' is not a valid interface name"):
         parse_message("demo_interfaces/msg/point", "")
     with pytest.raises(InterfaceError, match="found 0 lines with '---', expected 1"):

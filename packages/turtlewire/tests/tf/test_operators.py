@@ -76,6 +76,9 @@ def test_stamps_of_products(core):
     assert (a @ fixed).stamp_ns == a.inverse().stamp_ns == 5
     assert (a @ made(core, ("b", "c"), identity, 0)).stamp_ns == 0
     assert (fixed @ made(core, ("c", "d"), identity)).stamp_ns is None
+    assert a.interpolate(a, np.int64(5)) == a
+    with pytest.raises(TypeError, match="stamp_ns must be an int"):
+        a.interpolate(a, 5.0)
     with pytest.raises(ValueError, match="without a stamp"):
         fixed.interpolate(fixed, 5)
 

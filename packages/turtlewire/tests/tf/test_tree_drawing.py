@@ -98,6 +98,18 @@ def test_everything_is_on_the_page_and_no_card_covers_another(count):
             apart = card.x + card.width < other.x or other.x + other.width < card.x
             apart = apart or card.y + card.height < other.y or other.y + other.height < card.y
             assert other is card or apart
+    # Lines lead from the end of a card to the start of another one, and never back.
+    beside = {(card.x + card.width, card.y + card.height / 2) for card in cards}
+    below = {(card.x + card.width / 2, card.y + card.height) for card in cards}
+    before = {(card.x, card.y + card.height / 2) for card in cards}
+    above = {(card.x + card.width / 2, card.y) for card in cards}
+    lines = [shape.points for shape in drawing.shapes if isinstance(shape, Line)]
+    assert len(lines) == len(pairs)
+    for points in lines:
+        sideways = points[0][1] == points[1][1]
+        assert points[0] in (beside if sideways else below)
+        assert points[-1] in (before if sideways else above)
+        assert sorted(points, key=lambda point: point[0 if sideways else 1]) == list(points)
     for text in texts(drawing):
         assert text_width(text, 1.0) > 0
     assert drawing.width < 1300  # a wide tree grows to the right, so that it can still be read
