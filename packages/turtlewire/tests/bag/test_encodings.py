@@ -261,6 +261,17 @@ uint8[4] raw
 int64 large
 string only_theirs
 string became_number
+float32 became_text
+int32 became_list
+uint32 exact
+uint32 inexact
+float64 narrowed
+int8[] widened
+uint8[4] resized
+float32[3] fixed
+bool flag
+byte octet
+uint8 number
 ================================================================================
 MSG: evolved_msgs/Old
 int16 x
@@ -272,6 +283,17 @@ Old[2] pair
 uint8[] raw
 int32 large
 float32 became_number
+string became_text
+int32[] became_list
+float64 exact
+float32 inexact
+float32 narrowed
+int16[] widened
+uint8[5] resized
+float64[3] fixed
+int8 flag
+uint8 octet
+byte number
 float64 added 2.5
 """
 
@@ -288,7 +310,17 @@ def test_the_rule_for_each_kind_of_change(tmp_path):
     with open_bag(tmp_path / "bag") as bag:
         (found,) = bag
     decoded = found.decode()
-    assert msg.missing_fields(decoded) == ("pair.new_flag", "large", "became_number", "added")
+    assert msg.missing_fields(decoded) == (
+        "pair.new_flag",
+        "large",
+        "became_number",
+        "became_text",
+        "became_list",
+        "inexact",
+        "narrowed",
+        "resized",
+        "added",
+    )
     assert (decoded.count, decoded.share, decoded.names) == (
         message.count,
         message.share,
@@ -296,4 +328,8 @@ def test_the_rule_for_each_kind_of_change(tmp_path):
     )
     assert [each.x for each in decoded.pair] == [each.x for each in message.pair]
     assert list(decoded.raw) == list(message.raw)
-    assert (decoded.large, decoded.added) == (0, 2.5)
+    assert (decoded.large, decoded.became_text, decoded.added) == (0, "", 2.5)
+    assert (decoded.exact, decoded.flag) == (message.exact, message.flag)
+    assert list(decoded.widened) == list(message.widened)
+    assert list(decoded.fixed) == list(message.fixed)
+    assert (decoded.octet, decoded.number) == (message.octet, bytes((message.number,)))
