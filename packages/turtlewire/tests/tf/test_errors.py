@@ -74,7 +74,7 @@ def test_attributes(buffer: turtlewire.Buffer) -> None:
     assert {type(error) for error in (early, late, lonely)} == {errors.ExtrapolationException}
 
 
-def test_of_two_halves_without_an_answer_explain_returns_what_a_lookup_raises(
+def test_explain_returns_what_a_lookup_raises_between_two_times(
     buffer: turtlewire.Buffer,
 ) -> None:
     for child in ("target", "source"):
