@@ -261,6 +261,8 @@ def test_topics_types_and_names(tmp_path):
         ({"rename_topics": {"/tf": "x y"}}, "'x y' is not the name of a topic", ""),
         ({"rename_frames": {"odm": "x"}}, "no message has the frame 'odm'", "Did you mean: odom"),
         ({"rename_frames": {"odom": "/x"}}, "begins with a slash", ""),
+        ({"rename_frames": {"odom": ""}}, "the name of a frame must not be empty: odom:=", ""),
+        ({"rename_frames": {"": "x"}}, "the name of a frame must not be empty: :=x", ""),
         ({"start": "10"}, "'10' has no unit: write 10s", ""),
         ({"start": "tomorrow"}, "'tomorrow' is not a time", ""),
         ({"start": "2s", "end": "1s"}, "is not after the start", ""),

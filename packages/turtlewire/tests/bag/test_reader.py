@@ -14,13 +14,26 @@ from turtlewire.bag.metadata import BagMetadata, TopicInfo
 from turtlewire.errors import BagError, InterfaceError
 
 
-def test_a_definition_that_cannot_be_parsed_is_named(tmp_path):
+@pytest.mark.parametrize(
+    ("definition", "reason"),
+    [
+        ("int32", "bag_only/msg/Broken, line 1: '' is not a name in 'int32'"),
+        ("Broken[] inner", "bag_only/msg/Broken contains itself"),
+        (
+            f"Other x\n{'=' * 80}\nMSG: bag_only/Other\nBroken y",
+            "bag_only/msg/Broken contains itself",
+        ),
+        (f"Other x\n{'=' * 80}\nMSG: bag_only/Other\nNothing y", "bag_only/msg/Nothing"),
+    ],
+)
+def test_a_definition_that_cannot_be_read_is_named(tmp_path, definition, reason):
     with BagWriter(tmp_path / "own") as writer:
-        writer.add_topic("/own", "bag_only/msg/Broken", definition=("ros2msg", "int32"))
+        writer.add_topic("/own", "bag_only/msg/Broken", definition=("ros2msg", definition))
         writer.write("/own", bytes(8), 1)
     with open_bag(tmp_path / "own") as bag:
         (message,) = bag
         assert "own_0.mcap: the definition of bag_only/msg/Broken: " in bag.problems[0]
+        assert reason in bag.problems[0]
         with pytest.raises(InterfaceError):
             message.decode()
 
