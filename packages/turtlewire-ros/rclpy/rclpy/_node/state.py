@@ -58,7 +58,7 @@ class NodeState:
         self.full_name = names.fully_qualified_node_name(name, namespace)
         self.arguments = arguments
         self.logger: RcutilsLogger = get_logger(self.full_name[1:].replace("/", "."))
-        self._wire = context.wire.create_node(name, namespace, arguments.enclave)
+        self._wire = context.wire.create_node(name, namespace)
         rosout = (
             None
             if rosout_qos is None

@@ -177,7 +177,6 @@ class Arguments:
         Remap rules and parameters of these win. As in ROS 2, all else is the process's.
         """
         both = Arguments()
-        both.enclave = other.enclave
         # The first rule that applies wins, but the last value of a parameter.
         both.rules = self.rules + other.rules
         both.parameter_maps = other.parameter_maps + self.parameter_maps

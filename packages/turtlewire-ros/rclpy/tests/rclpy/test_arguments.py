@@ -7,6 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from tests.golden.cli.captures import captures, inputs
+from tests.needs import needs_cyclone_dds
 from tests.programs import run_python
 
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
@@ -462,13 +463,22 @@ def test_local_parameters_win_over_global_ones():
     assert local.followed_by(process).parameter_overrides("/n") == {"a": 1}
 
 
-def test_nodes_are_in_the_enclave_of_the_process(monkeypatch):
-    monkeypatch.setenv("RMW_IMPLEMENTATION", "local")
+@pytest.mark.parametrize(
+    "middleware",
+    ["local", pytest.param("rmw_cyclonedds_cpp", marks=needs_cyclone_dds), "rmw_zenoh_cpp"],
+)
+def test_nodes_are_in_the_enclave_of_the_process(monkeypatch, middleware):
+    monkeypatch.setenv("RMW_IMPLEMENTATION", middleware)
     context = Context()
     context.init(args=["--ros-args", "--enclave", "/robots/one"])
     node = Node("a", context=context, cli_args=["--ros-args", "--enclave", "/of/the/node"])
-    assert node.get_node_names_and_namespaces_with_enclaves() == [("a", "/", "/robots/one")]
+    other = Node("b", context=context, use_global_arguments=False)
+    assert sorted(node.get_node_names_and_namespaces_with_enclaves()) == [
+        ("a", "/", "/robots/one"),
+        ("b", "/", "/robots/one"),
+    ]
     node.destroy_node()
+    other.destroy_node()
     context.try_shutdown()
 
 

@@ -138,12 +138,9 @@ class Side:
 
     def __init__(self, end: End, mark: Mark) -> None:
         self.end = end
-        self._enclave = mark.enclave
-        self._context = open_context(
-            end.domain_id, middleware=end.middleware, enclave=self._enclave
-        )
+        self._context = open_context(end.domain_id, middleware=end.middleware, enclave=mark.enclave)
         self.graph = self._context.graph
-        self.node = self._context.create_node(_NAME, "/", self._enclave)
+        self.node = self._context.create_node(_NAME)
         self._nodes: dict[str, Node] = {}
         self._unclaimed: dict[bytes, float] = {}
         self._handlers: dict[Entity, Callable[[], None]] = {}
@@ -193,7 +190,7 @@ class Side:
             namespace = namespace or "/"
             if names.validate_node_name(name) or names.validate_namespace(namespace):
                 return self.node
-            self._nodes[full_name] = self._context.create_node(name, namespace, self._enclave)
+            self._nodes[full_name] = self._context.create_node(name, namespace)
         return self._nodes[full_name]
 
     def keep_nodes(self, used: set[Node]) -> None:

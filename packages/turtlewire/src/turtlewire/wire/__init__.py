@@ -52,7 +52,7 @@ def open_context(
         domain_id: None uses ``ROS_DOMAIN_ID``, or 0.
         middleware: ``rmw_cyclonedds_cpp`` (Cyclone DDS), ``rmw_zenoh_cpp`` (Zenoh) or ``local``
             (inside this process); None uses :func:`.environment.middleware_name`.
-        enclave: The enclave of the first nodes. A participant of DDS announces it from the start.
+        enclave: The enclave of its nodes.
 
     Raises:
         WireError: No such middleware, it is not available on this platform, the domain cannot be
@@ -69,7 +69,7 @@ def open_context(
     if name == "local":
         from .local.context import LocalContext
 
-        return LocalContext(domain_id)
+        return LocalContext(domain_id, enclave)
     check_security()
     if name == "rmw_cyclonedds_cpp":
         from .cyclone.context import CycloneContext
@@ -81,6 +81,6 @@ def open_context(
         require_zenoh()
         from .zenoh.context import ZenohContext
 
-        return ZenohContext(domain_id)
+        return ZenohContext(domain_id, enclave)
     error = WireError(f"middleware {name!r} is not available")
     raise error.with_hint(f"Choose from {', '.join(environment.MIDDLEWARES)}.")

@@ -442,8 +442,8 @@ class Context(ABC):
         """The graph as this participant sees it; discovery of it starts at the first use."""
 
     @abstractmethod
-    def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> Node:
-        """Announce a node."""
+    def create_node(self, name: str, namespace: str = "/") -> Node:
+        """Announce a node, in the enclave of the context."""
 
     @abstractmethod
     def create_wait_set(self) -> WaitSet:

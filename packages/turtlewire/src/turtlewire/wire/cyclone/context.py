@@ -25,10 +25,9 @@ class CycloneContext(Context):
 
     events = frozenset(EventKind)
 
-    def __init__(self, domain_id: int, enclave: str = "/") -> None:
+    def __init__(self, domain_id: int, enclave: str) -> None:
         self.domain_id = domain_id
-        self._enclave = enclave
-        self._core = CycloneContextState(domain_id, self._enclave)
+        self._core = CycloneContextState(domain_id, enclave)
         self.gid = self._core.participant.gid
         self._lock = threading.Lock()
         self._process = os.getpid()
@@ -45,12 +44,9 @@ class CycloneContext(Context):
                 core.graph = CycloneGraph(core.participant, core.announcer, core.reader)
             return core.graph
 
-    def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> CycloneNode:
+    def create_node(self, name: str, namespace: str = "/") -> CycloneNode:
         with self._lock:
             self._require_open(f"create node {name}")
-            if enclave != self._enclave:
-                self._core.participant.set_enclave(enclave)
-                self._enclave = enclave
             node = CycloneNode(self, self._core, name, namespace, self._forget)
             self._nodes[node] = None
         graph = self._core.graph

@@ -240,7 +240,6 @@ create_topic_of_type = _waits(
     "dds_create_topic_sertype",
     *(_entity, _entity, c_char_p, POINTER(c_void_p), c_void_p, c_void_p, c_void_p),
 )
-set_qos = _waits("dds_set_qos", _retcode, _entity, c_void_p)
 
 set_guard_condition = _short("dds_set_guardcondition", _retcode, _entity, c_bool)
 wait_set_attach = _waits("dds_waitset_attach", _retcode, _entity, _entity, c_int64)

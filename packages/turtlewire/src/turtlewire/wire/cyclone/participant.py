@@ -186,21 +186,13 @@ class Participant:
                 raise WireError(f"{dds.LIBRARY} has an unexpected layout of types")
 
     def _create(self, enclave: str) -> int:
+        user_data = format_user_data(enclave=enclave)
         qos = dds.create_qos()
         try:
-            _set_enclave(qos, enclave)
+            dds.qset_user_data(qos, user_data, len(user_data))
             return dds.check(
                 dds.create_participant(self.domain_id, qos, None), f"join domain {self.domain_id}"
             )
-        finally:
-            dds.delete_qos(qos)
-
-    def set_enclave(self, enclave: str) -> None:
-        """Announce another enclave."""
-        qos = dds.create_qos()
-        try:
-            _set_enclave(qos, enclave)
-            dds.check(dds.set_qos(self.handle, qos), "announce the enclave")
         finally:
             dds.delete_qos(qos)
 
@@ -265,8 +257,3 @@ def _there_and_back(probe: bytes, sertype: int) -> bytes:
     dds.serdata_to_bytes(serdata, 0, len(copy), copy)
     dds.serdata_unref(serdata)
     return copy
-
-
-def _set_enclave(qos: int, enclave: str) -> None:
-    user_data = format_user_data(enclave=enclave)
-    dds.qset_user_data(qos, user_data, len(user_data))

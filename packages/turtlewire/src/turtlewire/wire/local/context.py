@@ -248,8 +248,9 @@ class LocalContext(Context):
 
     events = EVENTS
 
-    def __init__(self, domain_id: int) -> None:
+    def __init__(self, domain_id: int, enclave: str) -> None:
         self.domain_id = domain_id
+        self._enclave = enclave
         self.gid = new_gid()
         self._nodes: list[LocalNode] = []
         self._reader: Reader = LoopReader() if in_browser() else ReaderThread()
@@ -273,8 +274,8 @@ class LocalContext(Context):
         self._reader.close()
         self._reader = reader
 
-    def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> LocalNode:
-        core = LocalNodeState(NodeInfo(name, namespace, enclave), self.bus, self._reader)
+    def create_node(self, name: str, namespace: str = "/") -> LocalNode:
+        core = LocalNodeState(NodeInfo(name, namespace, self._enclave), self.bus, self._reader)
         node = LocalNode(self, core, self._forget)
         with self.bus.lock:
             self._require_open(f"create node {name}")

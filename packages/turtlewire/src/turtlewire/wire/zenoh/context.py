@@ -161,9 +161,10 @@ class ZenohContext(Context):
     _opener: ClassVar[int | None] = None
     """The process that opened the first session, and with it started the threads of Zenoh."""
 
-    def __init__(self, domain_id: int) -> None:
+    def __init__(self, domain_id: int, enclave: str) -> None:
         self._require_threads()
         self.domain_id = domain_id
+        self._enclave = enclave
         configuration = session_configuration()
         session = _open(configuration)
         reader = ReaderThread()
@@ -185,9 +186,9 @@ class ZenohContext(Context):
     def graph(self) -> ZenohGraph:
         return self._graph
 
-    def create_node(self, name: str, namespace: str = "/", enclave: str = "/") -> ZenohNode:
+    def create_node(self, name: str, namespace: str = "/") -> ZenohNode:
         self._require_open(f"create node {name}")
-        node = ZenohNode(self, self._core, NodeInfo(name, namespace, enclave), self._forget)
+        node = ZenohNode(self, self._core, NodeInfo(name, namespace, self._enclave), self._forget)
         with self._core.lock:
             self._nodes[node] = None
         return node
