@@ -125,8 +125,10 @@ class Run(Generic[C]):
         futures, self._futures = self._futures, set()
         for future in futures:
             future.cancel()
-        await asyncio.gather(*futures, return_exceptions=True)
-        self._events.clear()
+        try:
+            await _ended(futures)
+        finally:
+            self._events.clear()
 
     # processes
 
@@ -142,4 +144,19 @@ class Run(Generic[C]):
         processes, self._processes = self._processes, None
         if processes is not None:
             # In a thread: it blocks for up to five seconds, and output must still be read.
-            await asyncio.to_thread(processes.stop)
+            stop = asyncio.get_running_loop().run_in_executor(None, processes.stop)
+            await _ended({stop})
+            stop.result()
+
+
+async def _ended(futures: set[asyncio.Future[Any]]) -> None:
+    """Wait until the futures are done; only then raise a cancellation that came meanwhile."""
+    cancellation = None
+    while not all(future.done() for future in futures):
+        try:
+            # Unlike `gather`, this does not pass a cancellation on to the futures.
+            await asyncio.wait(futures)
+        except asyncio.CancelledError as error:  # noqa: PERF203  the wait goes on
+            cancellation = error
+    if cancellation is not None:
+        raise cancellation

@@ -3,6 +3,7 @@
 import asyncio
 import os
 import signal
+import subprocess
 import sys
 import threading
 from contextlib import closing
@@ -121,6 +122,46 @@ def test_an_end_is_forgotten_at_the_next_start():
         assert not run.is_shutdown
 
     running(look)
+
+
+def test_a_cancellation_waits_until_the_processes_have_ended():
+    async def stop(run):
+        child = subprocess.Popen(  # noqa: ASYNC220  asyncio would tell later that it has ended
+            ["sleep", "100"], env=run.marked(os.environ)
+        )
+        stopping = asyncio.ensure_future(run.stop_processes())
+        run.loop.call_soon(stopping.cancel)
+        with pytest.raises(asyncio.CancelledError):
+            await stopping
+        assert child.poll() == -signal.SIGTERM
+
+    running(stop)
+
+
+def test_a_cancellation_waits_until_the_rest_is_cancelled():
+    async def cancel(run):
+        release, ends = asyncio.Event(), []
+
+        async def end_slowly():
+            try:
+                await run.loop.create_future()
+            finally:
+                await release.wait()
+                run.emit(Event())
+                ends.append(1)
+
+        work = asyncio.ensure_future(end_slowly())
+        run.keep_running_for(work)
+        await asyncio.sleep(0)  # lets the work start
+        cancelling = asyncio.ensure_future(run.cancel_rest())
+        run.loop.call_soon(cancelling.cancel)
+        run.loop.call_soon(run.loop.call_soon, release.set)
+        with pytest.raises(asyncio.CancelledError):
+            await cancelling
+        assert ends == [1]
+        assert not run.is_busy
+
+    running(cancel)
 
 
 def handler(name, log=None):
