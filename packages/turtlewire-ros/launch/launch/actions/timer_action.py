@@ -73,7 +73,7 @@ class TimerAction(Action):
         self._cancel_on_shutdown = normalize_to_list_of_substitutions(text)
         self._completed: asyncio.Future[None] | None = None
         # An action of an event handler is visited at each event.
-        self._timers: dict[asyncio.Future[None], Any] = {}
+        self._timers: dict[asyncio.Future[None], Callable[[], object]] = {}
         self._own_events: weakref.WeakSet[TimerEvent] = weakref.WeakSet()
         self._canceled = False
         self._logger = logging.get_logger("launch.timer_action")
@@ -168,15 +168,15 @@ class TimerAction(Action):
 
     def _start_time(
         self, context: LaunchContext, loop: asyncio.AbstractEventLoop, expire: Callable[[], None]
-    ) -> Any:
-        """Start the timer; the returned object has a method ``cancel``."""
-        return loop.call_later(self.seconds(context), expire)
+    ) -> Callable[[], object]:
+        """Call ``expire`` after the period; return a function that prevents this."""
+        return loop.call_later(self.seconds(context), expire).cancel
 
     def cancel(self) -> None:
         """Drop the actions, unless they were visited already."""
         self._canceled = True
-        for completed, timer in self._timers.items():
-            timer.cancel()
+        for completed, cancel in self._timers.items():
+            cancel()
             if not completed.done():
                 completed.set_result(None)
 
@@ -191,9 +191,12 @@ class TimerAction(Action):
 
     def _on_shutdown(self, _event: Event, context: LaunchContext) -> None:
         is_running = any(not completed.done() for completed in self._timers)
-        if is_running and evaluate_condition_expression(context, self._cancel_on_shutdown):
+        if is_running and self._ends_at_shutdown(context):
             self._logger.debug("canceling %s because of shutdown", self)
             self.cancel()
+
+    def _ends_at_shutdown(self, context: LaunchContext) -> bool:
+        return evaluate_condition_expression(context, self._cancel_on_shutdown)
 
 
 def _beginning_of_scope(context: LaunchContext) -> list[LaunchDescriptionEntity]:

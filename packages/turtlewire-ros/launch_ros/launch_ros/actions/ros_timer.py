@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.actions import TimerAction
 from launch.frontend import expose_action
@@ -23,7 +23,8 @@ __all__ = ["ROSTimer", "RosTimer", "SomeSubstitutionsType_types_tuple"]
 class ROSTimer(TimerAction):
     """Visits actions after a period of ROS time.
 
-    ROS time is that of ``/clock`` if the scope sets ``use_sim_time``, else the system's.
+    ROS time is that of ``/clock`` if the scope sets ``use_sim_time``, else the system's. The end
+    of the launch cancels the timer, because it also ends the node that the timer belongs to.
 
     Args:
         period: Seconds: a number, or a text that is one.
@@ -33,7 +34,7 @@ class ROSTimer(TimerAction):
 
     def _start_time(
         self, context: LaunchContext, loop: asyncio.AbstractEventLoop, expire: Callable[[], None]
-    ) -> Any:
+    ) -> Callable[[], object]:
         from rclpy.parameter import Parameter
 
         node = get_ros_node(context)
@@ -42,13 +43,20 @@ class ROSTimer(TimerAction):
             node.set_parameters([Parameter("use_sim_time", value=True)])
 
         def end() -> None:
-            timer.cancel()
+            node.destroy_timer(timer)
             # The timer runs on the thread of the launch's node, but actions belong to the event
             # loop.
             loop.call_soon_threadsafe(expire)
 
-        timer = node.create_timer(self.seconds(context), end)
-        return timer
+        # Started only when `end` can find it.
+        timer = node.create_timer(self.seconds(context), end, autostart=False)
+        timer.reset()
+        return lambda: node.destroy_timer(timer)
+
+    def _ends_at_shutdown(self, context: LaunchContext) -> bool:
+        del context
+        # Even without `cancel_on_shutdown`: the node ends, so the timer would never fire.
+        return True
 
 
 RosTimer = ROSTimer

@@ -30,7 +30,7 @@ from launch_ros.descriptions import ComposableLifecycleNode
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events import matches_node_name
 from launch_ros.events.lifecycle import ChangeState, StateTransition
-from launch_ros.ros_adapters import get_ros_adapter
+from launch_ros.ros_adapters import get_ros_adapter, get_ros_node
 from lifecycle_msgs.msg import State, Transition, TransitionEvent
 
 MANAGED = """#!/usr/bin/env python3
@@ -277,6 +277,38 @@ def test_ros_timers_follow_the_clock_of_the_scope(launch):
     still = RosTimer(period=0.001, actions=[LogInfo(msg="never")])
     ends = ExecuteProcess(cmd=[sys.executable, "-c", ""], on_exit=Shutdown())
     assert launch(SetUseSimTime(True), still, ends).messages == []
+
+
+def test_ros_timers_leave_the_node_when_they_have_fired(launch):
+    left = []
+
+    def look(context):
+        left.extend(get_ros_node(context).timers)
+
+    assert launch(RosTimer(period=0.01, actions=[OpaqueFunction(function=look)])).status == 0
+    assert left == []
+
+
+def test_ros_timers_leave_the_node_when_they_are_cancelled(launch):
+    timer, seen = RosTimer(period=100.0, actions=[]), []
+
+    def cancel(context):
+        seen.append(len(list(get_ros_node(context).timers)))
+        timer.cancel()
+        seen.append(len(list(get_ros_node(context).timers)))
+
+    assert launch(timer, OpaqueFunction(function=cancel)).status == 0
+    assert seen == [1, 0]
+
+
+@pytest.mark.parametrize("cancel_on_shutdown", [True, False])
+def test_the_end_of_a_launch_cancels_ros_timers(launch, cancel_on_shutdown):
+    late = RosTimer(
+        period=100.0, actions=[LogInfo(msg="never")], cancel_on_shutdown=cancel_on_shutdown
+    )
+    outcome = launch(late, Shutdown())
+    assert (outcome.status, outcome.messages) == (0, [])
+    assert late.get_asyncio_future().done()
 
 
 def test_two_shutdowns_end_the_node_of_a_launch_once(launch):
