@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
+import importlib.util
+import sys
 import threading
 import traceback
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,8 @@ from rclpy.executors import ExternalShutdownException, ShutdownException, Single
 from rclpy.node import Node, component_arguments
 from rclpy.parameter import parameter_value_to_python
 from turtlewire.terminal.printable import printable, printable_lines
+from turtlewire_ros.prefix import package_prefix
+from turtlewire_ros.workspace_hints import package_hint
 
 if TYPE_CHECKING:
     from rclpy.context import Context
@@ -111,16 +114,27 @@ class _Component:
 
 
 class _UnknownPluginError(Exception):
-    """No Python class has the name of this C++ component.
+    """The package is not installed, or no Python class has the name of this C++ component.
 
     Args:
-        message: ROS 2's text for a library that is not installed, or does not have the component.
+        message: ROS 2's text for a package that is not installed or does not have the component.
         reason: What the log says.
     """
 
     def __init__(self, message: str, reason: str) -> None:
         super().__init__(message)
         self.reason = reason
+
+
+def _check_package(name: str) -> None:
+    """Raise `_UnknownPluginError` if neither ROS nor Python has a package of this name."""
+    is_known = package_prefix(name) is not None or name in sys.modules
+    # `find_spec` imports the package before a dot, and accepts no empty name.
+    if not is_known and not (name.isidentifier() and importlib.util.find_spec(name)):
+        raise _UnknownPluginError(
+            "Could not find requested resource in ament index",
+            f"Package '{name}' not found. {package_hint(name)}",
+        )
 
 
 def _component_class(plugin: str, package: str) -> Any:
@@ -150,6 +164,7 @@ def _component_class(plugin: str, package: str) -> Any:
 
 
 def _construct(request: Any) -> Node:
+    _check_package(request.package_name)
     node_class = _component_class(request.plugin_name, request.package_name)
     token = component_arguments.set(_words(request))
     try:

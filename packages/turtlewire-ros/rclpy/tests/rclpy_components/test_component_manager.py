@@ -93,7 +93,7 @@ def call(manager):
 
 def load(call, name="Talker", **fields):
     return call(
-        LoadNode, "load_node", package_name="test", plugin_name=f"{MODULE}.{name}", **fields
+        LoadNode, "load_node", package_name=MODULE, plugin_name=f"{MODULE}.{name}", **fields
     )
 
 
@@ -118,7 +118,7 @@ def test_a_component_gets_what_the_request_says(call):
 
 @pytest.mark.parametrize("plugin", [f"{MODULE}::Talker", f"{MODULE}:Talker"])
 def test_a_class_has_the_name_of_a_component_of_cpp(call, plugin):
-    response = call(LoadNode, "load_node", package_name="test", plugin_name=plugin)
+    response = call(LoadNode, "load_node", package_name=MODULE, plugin_name=plugin)
     assert response.full_node_name == "/talker"
 
 
@@ -131,7 +131,7 @@ def test_a_class_has_the_name_of_a_component_of_cpp(call, plugin):
 )
 def test_the_log_says_what_can_be_loaded(call, capfd, monkeypatch, plugin, says):
     monkeypatch.setattr(sys.modules[MODULE], "__all__", ["Talker", "Fails"], raising=False)
-    assert not call(LoadNode, "load_node", package_name="test", plugin_name=plugin).success
+    assert not call(LoadNode, "load_node", package_name=MODULE, plugin_name=plugin).success
     errors = capfd.readouterr().err
     assert says in errors
     assert "Traceback" not in errors
@@ -200,19 +200,34 @@ def test_unloading(call):
         (f"{MODULE}::Fails", "ValueError: no battery"),
         (
             "Talker",
-            "ValueError: 'Talker' is not a component of test; expected 'package.module.Class'",
+            f"ValueError: 'Talker' is not a component of {MODULE}; expected 'package.module.Class'",
         ),
     ],
 )
 def test_unloadable_files(call, plugin, message):
-    response = call(LoadNode, "load_node", package_name="test", plugin_name=plugin)
+    response = call(LoadNode, "load_node", package_name=MODULE, plugin_name=plugin)
     assert (response.success, response.error_message) == (False, message)
     assert load(call).success
 
 
+@pytest.mark.parametrize("package", ["std_msg", "", ".", "rclpy.nothing"])
+def test_an_unknown_package_is_rejected(call, capfd, package):
+    plugin = f"{MODULE}.Talker"
+    response = call(LoadNode, "load_node", package_name=package, plugin_name=plugin)
+    assert not response.success
+    assert response.error_message == "Could not find requested resource in ament index"
+    assert CREATED == []
+    assert f"Package '{package}' not found. " in capfd.readouterr().err
+
+
+def test_an_installed_package_is_accepted(call):
+    plugin = f"{MODULE}.Talker"
+    assert call(LoadNode, "load_node", package_name="turtlesim_msgs", plugin_name=plugin).success
+
+
 @pytest.mark.parametrize("plugin", ["no::\x1b[2J", "\x1b[2J", "no\x1b[2J.Talker"])
 def test_a_request_does_not_steer_the_terminal(call, capfd, plugin):
-    assert not call(LoadNode, "load_node", package_name="test", plugin_name=plugin).success
+    assert not call(LoadNode, "load_node", package_name=MODULE, plugin_name=plugin).success
     errors = capfd.readouterr().err
     assert r"\x1b[2J" in errors
     assert "\x1b" not in errors

@@ -139,7 +139,7 @@ def done(verb, status=0):
 
 @pytest.mark.usefixtures("container")
 def test_a_node_is_loaded_listed_and_unloaded(component):
-    load = ("load", "/ComponentManager", "some_package", "some_module.Talker")
+    load = ("load", "/ComponentManager", "some_module", "some_module.Talker")
     options = ("-n", "other", "--node-namespace", "/ns", "-p", "speed:=3")
     told = "Loaded component 1 into '/ComponentManager' container node as '/ns/other'"
     assert done(component(*load, *options)) == told
@@ -161,14 +161,19 @@ def test_a_container_that_is_not_there(component):
 
 
 def test_a_container_of_its_own(component):
-    words = ("some_package", "some_module.Talker", "-p", "speed:=7")
+    words = ("some_module", "some_module.Talker", "-p", "speed:=7")
     verb = component("standalone", *words)
     verb.wait_for("speed 7")
     verb.wait_for("^Loaded component 1 as '/talker'$")
     verb.process.terminate()
     assert verb.wait() == 2
-    told = done(component("standalone", "some_package", "some_module.Nobody"), status=1)
+    told = done(component("standalone", "some_module", "some_module.Nobody"), status=1)
     assert "Failed to load component: AttributeError: " in told
+    told = done(component("standalone", "std_msg", "some_module.Talker"), status=1)
+    assert "Package 'std_msg' not found. Did you mean: std_msgs" in told
+    assert told.endswith(
+        "Failed to load component: Could not find requested resource in ament index"
+    )
 
 
 def test_registered_types(component, tmp_path, monkeypatch):
