@@ -203,7 +203,9 @@ def test_a_forked_child_is_told_so_and_ends_quietly(context: Context):
     assert output(code) == refused
 
 
-def test_a_forked_child_may_close_what_it_inherits(context: Context):
+@pytest.mark.parametrize("context", ["rmw_cyclonedds_cpp", "rmw_zenoh_cpp", "local"], indirect=True)
+@pytest.mark.usefixtures("context")
+def test_a_forked_child_may_close_what_it_inherits():
     code = (
         "import os, signal, threading\n"
         "from turtlewire.wire import open_context\n"
@@ -217,7 +219,9 @@ def test_a_forked_child_may_close_what_it_inherits(context: Context):
         "ends.append(node.create_service('/b', types, QoS()))\n"
         "ends.append(node.create_subscription('/a', kind, QoS()))\n"
         "wait_set.attach(ends[-1])\n"
-        "locked = (*ends, wait_set, context, context._core, context._core.reader)\n"
+        "core = getattr(context, '_core', context)\n"
+        "reader = getattr(core, 'reader', None) or context._reader\n"
+        "locked = (*ends, wait_set, context, core, reader)\n"
         "locks = [getattr(each, name, None) for each in locked for name in ('lock', '_lock')]\n"
         "held, forked = threading.Event(), threading.Event()\n"
         "def hold():  # as another thread may at the moment of the fork\n"

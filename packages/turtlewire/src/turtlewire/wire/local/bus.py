@@ -79,6 +79,7 @@ class LocalEndpoint(EventSource, Entity):
         self._node = node
         self._service_hash = spec.service_hash
         self._closed = False
+        self._process = os.getpid()
         keep_all = spec.qos.history == History.KEEP_ALL
         self._queue: deque[Message] = deque(maxlen=None if keep_all else max(spec.qos.depth, 1))
 
@@ -122,6 +123,8 @@ class LocalEndpoint(EventSource, Entity):
         self._event(EventKind.INCOMPATIBLE_QOS).add(status)
 
     def close(self) -> None:
+        if self._process != os.getpid():  # see `Entity.close`
+            return
         with self._lock:
             if self._closed:
                 return

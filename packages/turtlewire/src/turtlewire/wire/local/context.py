@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -258,6 +259,7 @@ class LocalContext(Context):
         self._graph = _LocalGraph(self.bus)
         self._wait_sets: set[QueueWaitSet] = set()
         self._closed = False
+        self._process = os.getpid()
         with self.bus.lock:
             self.bus.listeners.append(self._graph_changed)
 
@@ -304,13 +306,16 @@ class LocalContext(Context):
         return call_when_queued(self.bus.lock, entity, call)
 
     def call_soon(self, call: Callable[[], None]) -> None:
-        self._reader.submit(call)
+        if self._process == os.getpid():  # a forked child has no reader thread
+            self._reader.submit(call)
 
     def _require_open(self, what: str) -> None:
         if self._closed:
             raise WireError(f"{what}: the context is closed")
 
     def close(self) -> None:
+        if self._process != os.getpid():  # see `Entity.close`
+            return
         with self.bus.lock:
             if self._closed:
                 return
