@@ -64,21 +64,10 @@ def run(
     Returns:
         0, or 1 if a test failed.
     """
-    path = os.path.abspath(args.launch_test_file)
-    if not os.path.isfile(path):
-        parser.error(f"Test file '{args.launch_test_file}' does not exist")
-    if args.xmlpath and not _can_write(args.xmlpath):  # before tests that may take minutes
-        parser.error(f"argument --junit-xml: cannot write '{args.xmlpath}'")
-    name = os.path.splitext(os.path.basename(path))[0]
-    package = args.package_name or name
-    module = _imported(name, path)
-    if module is None:
-        parser.error(f"Test file '{args.launch_test_file}' is not a Python file: .py is missing")
-    if not hasattr(module, "generate_test_description"):
-        parser.error(
-            f"Test file '{args.launch_test_file}' is missing generate_test_description function"
-        )
-    runs = LoadTestsFromPythonModule(module, name=f"{package}.{name}.launch_tests")
+    name = os.path.splitext(os.path.basename(args.launch_test_file))[0]
+    full_name = f"{args.package_name or name}.{name}"
+    module = _checked_module(parser, args, name)
+    runs = LoadTestsFromPythonModule(module, name=f"{full_name}.launch_tests")
     runner = test_runner_cls(runs, args.launch_arguments, args.verbose)
     try:
         runner.validate()
@@ -90,14 +79,38 @@ def run(
     except Exception as error:  # noqa: BLE001  the file's own code may raise anything
         traceback.print_exc()
         parser.error(str(error))
-    if args.xmlpath:
-        report = unittestResultsToXml(name=f"{package}.{name}", test_results=results)
-        with new_file(args.xmlpath) as unfinished:
-            report.write(unfinished, encoding="utf-8", xml_declaration=True)
     for result in results.values():
         if message := getattr(result, "message", ""):
             print(f"FAILED: {message}")
+    if args.xmlpath:
+        report = unittestResultsToXml(name=full_name, test_results=results)
+        try:
+            with new_file(args.xmlpath) as unfinished:
+                report.write(unfinished, encoding="utf-8", xml_declaration=True)
+        except OSError as error:
+            parser.error(f"argument --junit-xml: cannot write '{args.xmlpath}': {error.strerror}")
     return int(not all(result.wasSuccessful() for result in results.values()))
+
+
+def _checked_module(
+    parser: argparse.ArgumentParser, args: argparse.Namespace, name: str
+) -> ModuleType:
+    """Return the test file as a module, or end the program with an error of the command line."""
+    file = args.launch_test_file
+    try:
+        os.getcwd()
+    except FileNotFoundError:
+        parser.error("the current folder was deleted")
+    if not os.path.isfile(file):
+        parser.error(f"Test file '{file}' does not exist")
+    if args.xmlpath and not _can_write(args.xmlpath):  # before tests that may take minutes
+        parser.error(f"argument --junit-xml: cannot write '{args.xmlpath}'")
+    module = _imported(name, os.path.abspath(file))
+    if module is None:
+        parser.error(f"Test file '{file}' is not a Python file: .py is missing")
+    if not hasattr(module, "generate_test_description"):
+        parser.error(f"Test file '{file}' is missing generate_test_description function")
+    return module
 
 
 @program

@@ -211,6 +211,27 @@ def test_the_command_line(tmp_path, words, status, says):
     assert says in done.stdout
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="Windows deletes no folder that is in use")
+def test_a_current_folder_that_was_deleted_is_an_error(tmp_path):
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    words = (*LAUNCH_TEST, SAMPLES / "sample_classes.py")
+    done = run("bash", "-c", 'rmdir "$PWD" && "$@"', "bash", *words, cwd=gone)
+    assert done.returncode == 2
+    assert done.stdout.endswith("launch_test: error: the current folder was deleted\n")
+    assert "Traceback" not in done.stdout
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/full")
+def test_a_report_that_cannot_be_written_is_an_error():
+    words = (SAMPLES / "sample_classes.py", "who:=you", "--junit-xml", "/dev/full")
+    done = run(*LAUNCH_TEST, *words)
+    assert done.returncode == 2
+    says = "argument --junit-xml: cannot write '/dev/full': No space left on device"
+    assert done.stdout.endswith(f"launch_test: error: {says}\n")
+    assert "Traceback" not in done.stdout
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/full")
 def test_a_full_disk_is_named():
     command = shlex.join([*LAUNCH_TEST, str(SAMPLES / "sample_classes.py")])
