@@ -11,6 +11,8 @@ module                        contents
 `graph`                       other nodes, topics and services
 `declared`, `parameters`      parameters of a node: read and listed; set, with callbacks and
                               events
+`graph_methods`               methods of `BaseNode` that show the graph
+`parameter_methods`           methods of `BaseNode` for its parameters
 `declarations`                what a declaration of a parameter means; checks of a value: ranges,
                               steps, types
 `views`                       views of a node for the time source and built-in services
