@@ -15,6 +15,7 @@ from ros2cli.node import NODE_NAME_PREFIX
 from turtlewire.distro import LYRICAL, since
 
 if TYPE_CHECKING:
+    from rclpy.action import ActionClient
     from ros2cli.node.direct import DirectNode
 
 __all__ = ["ARGUMENTS", "NODE_NAME_PREFIX", "SendGoalVerb", "main", "non_negative_int", "send_goal"]
@@ -93,16 +94,10 @@ def send_goal(
         KeyboardInterrupt: At Ctrl-C.
         RuntimeError: The type is not an action, the values are wrong, or the server did not answer.
     """
-    from ros2cli.suggestion import field_meant, interface_meant, say_why_to_wait
+    from ros2cli.suggestion import field_meant
     from rosidl_runtime_py import set_message_fields
-    from rosidl_runtime_py.utilities import get_action
 
-    try:
-        action_class = get_action(action_type)
-    except (AttributeError, ModuleNotFoundError, ValueError):
-        raise RuntimeError(
-            f"The passed action type is invalid{interface_meant(action_type, 'action')}"
-        ) from None
+    action_class = _action_class(action_type)
     goal = action_class.Goal()
     values = read_values(goal_values)
     try:
@@ -112,30 +107,62 @@ def send_goal(
     from rclpy.action import ActionClient
     from ros2cli.graph import actions
     from ros2cli.node.direct import DirectNode
-    from turtlewire.wire.services import require_callable
 
     with DirectNode(None) as direct:
         known = actions(direct.graph)  # our own client is not among them
         client = ActionClient(direct.node, action_class, action_name)
         action = direct.node.resolve_topic_name(action_name)
-        service = f"{action}/_action/send_goal"
         try:
-            print("Waiting for an action server to become available...")
-            # Before the wait, which a server that would misread the goal could never end.
-            require_callable(direct.graph, service)
-            if not client.server_is_ready():
-                say_why_to_wait("action", action, action_class, known)
-            if not direct.wait_for_server(service, client.server_is_ready, timeout):
-                if timeout is not None and direct.node.context.ok():
-                    return f"No server of the action '{action}' came within {timeout} s"
-                # Without a limit, the wait ends without a server only at a signal.
-                raise KeyboardInterrupt
+            if not _wait_for_server(direct, client, action, known, timeout):
+                return f"No server of the action '{action}' came within {timeout} s"
             # Up to Kilted, the time is that of the wait for a server.
             limit = timeout if since(LYRICAL) else None
             _run(direct, client, goal, f"action '{action_name}'", feedback_callback, limit)
         finally:
             client.destroy()
     return None
+
+
+def _action_class(name: str) -> Any:
+    from ros2cli.suggestion import interface_meant
+    from rosidl_runtime_py.utilities import get_action
+
+    try:
+        return get_action(name)
+    except (AttributeError, ModuleNotFoundError, ValueError):
+        raise RuntimeError(
+            f"The passed action type is invalid{interface_meant(name, 'action')}"
+        ) from None
+
+
+def _wait_for_server(
+    direct: DirectNode,
+    client: ActionClient[Any],
+    action: str,
+    known: list[tuple[str, list[str]]],
+    timeout: float | None,
+) -> bool:
+    """Wait until a server is available; return False at the end of the time.
+
+    Raises:
+        KeyboardInterrupt: At Ctrl-C.
+        UncallableServiceError: A server would misread the goal.
+    """
+    from ros2cli.suggestion import say_why_to_wait
+    from turtlewire.wire.services import require_callable
+
+    print("Waiting for an action server to become available...")
+    service = f"{action}/_action/send_goal"
+    # Before the wait, which a server that would misread the goal could never end.
+    require_callable(direct.graph, service)
+    if not client.server_is_ready():
+        say_why_to_wait("action", action, client._action_type, known)
+    if direct.wait_for_server(service, client.server_is_ready, timeout):
+        return True
+    if timeout is not None and direct.node.context.ok():
+        return False
+    # Without a limit, the wait ends without a server only at a signal.
+    raise KeyboardInterrupt
 
 
 def _run(
