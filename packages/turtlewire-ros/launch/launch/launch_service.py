@@ -5,9 +5,10 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import signal
+import sys
 import threading
 import traceback
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from launch import logging
@@ -234,19 +235,7 @@ class LaunchService:
             yield
             return
         loop = asyncio.get_running_loop()
-        handlers = {
-            "SIGINT": self._on_sigint,
-            "SIGTERM": self._on_sigterm,
-            "SIGQUIT": self._on_sigquit,
-            "SIGHUP": self._on_sighup,
-        }
-        numbers = {
-            getattr(signal, name): handler
-            for name, handler in handlers.items()
-            if hasattr(signal, name)  # Windows has only the first two
-        }
-        if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) == signal.SIG_IGN:
-            del numbers[signal.SIGHUP]  # nohup
+        handlers = self._signal_handlers()
 
         def hand_to_loop(number: int, _frame: object) -> None:
             # A loop that a callback blocks never sees the signal; the third Ctrl-C breaks it.
@@ -254,18 +243,30 @@ class LaunchService:
                 self._unseen_interrupts += 1
                 if self._unseen_interrupts == _PATIENCE:
                     raise KeyboardInterrupt
-            loop.call_soon_threadsafe(numbers[signal.Signals(number)])
+            loop.call_soon_threadsafe(handlers[number])
 
         # Not `loop.add_signal_handler`: Windows has none, and a blocked loop would never see the
         # third Ctrl-C.
-        before = {number: signal.signal(number, hand_to_loop) for number in numbers}
+        before = {number: signal.signal(number, hand_to_loop) for number in handlers}
         try:
             # A loop that sleeps may miss a signal; a call from another thread wakes it.
-            with watched(numbers, lambda: loop.call_soon_threadsafe(lambda: None)):
+            with watched(handlers, lambda: loop.call_soon_threadsafe(lambda: None)):
                 yield
         finally:
             for number, handler in before.items():
                 signal.signal(number, handler)
+
+    def _signal_handlers(self) -> dict[int, Callable[[], None]]:
+        """Return the functions that the loop calls, by the numbers of the signals."""
+        handlers: dict[int, Callable[[], None]] = {
+            signal.SIGINT: self._on_sigint,
+            signal.SIGTERM: self._on_sigterm,
+        }
+        if sys.platform != "win32":
+            handlers[signal.SIGQUIT] = self._on_sigquit
+            if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:  # `nohup` ignores it
+                handlers[signal.SIGHUP] = self._on_sighup
+        return handlers
 
     def _on_sigint(self) -> None:
         self._unseen_interrupts = 0
