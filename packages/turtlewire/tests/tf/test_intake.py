@@ -13,7 +13,7 @@ from tests.needs import COMPILED_CORE
 
 from turtlewire import Buffer, msg, wire
 from turtlewire.tf import buffer as core
-from turtlewire.tf import faults, listener
+from turtlewire.tf import channel, faults
 from turtlewire.tf.links import links
 from turtlewire.tf.listener import QOS, STATIC_QOS, TYPE_NAME, TransformListener
 from turtlewire.wire.base import TypeId
@@ -43,7 +43,7 @@ class Flow:
         self.node = self.receiver.create_node("listener")
         self._stamps = itertools.count(1)
         self.identified = 0
-        call, identify = listener._Feed.__call__, listener._Feed._identify
+        call, identify = channel.Feed.__call__, channel.Feed._identify
 
         def counted(feed, cdr, info):
             self.by_python += 1
@@ -53,8 +53,8 @@ class Flow:
             self.identified += 1
             return identify(feed, publisher, gid_of)
 
-        monkeypatch.setattr(listener._Feed, "__call__", counted)
-        monkeypatch.setattr(listener._Feed, "_identify", asked)
+        monkeypatch.setattr(channel.Feed, "__call__", counted)
+        monkeypatch.setattr(channel.Feed, "_identify", asked)
 
     def listen(self, store, **choices):
         return TransformListener(store, self.node, context=self.receiver, qos=KEEP_ALL, **choices)
@@ -124,14 +124,14 @@ def test_messages_during_the_name_lookup_need_no_python(flow, monkeypatch):
     """So that a machine under load finds back to the short way."""
     buffer = Buffer(None)
     busy, go = threading.Event(), threading.Event()
-    identify = listener._Feed._identify
+    identify = channel.Feed._identify
 
     def slow(feed, publisher, gid_of):
         busy.set()
         assert go.wait(60)
         return identify(feed, publisher, gid_of)
 
-    monkeypatch.setattr(listener._Feed, "_identify", slow)
+    monkeypatch.setattr(channel.Feed, "_identify", slow)
     with flow.listen(buffer):
         flow.wait_for_match()
         for stamp_s in range(1, 51):
@@ -175,7 +175,7 @@ def test_a_publisher_that_nobody_can_name_is_heard_through_python(flow, monkeypa
 
     faults = []
     monkeypatch.setattr(sys, "unraisablehook", lambda fault: faults.append(str(fault.exc_value)))
-    monkeypatch.setattr(listener._Feed, "_identify", failing)
+    monkeypatch.setattr(channel.Feed, "_identify", failing)
     buffer = Buffer()
     with flow.listen(buffer):
         flow.wait_for_match()

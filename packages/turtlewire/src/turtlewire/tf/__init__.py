@@ -30,6 +30,7 @@ module                     contents
 `pose_rows`                poses given as an array of rows or of matrices
 `number_errors`            errors for values that are not vectors or quaternions
 `listener`                 `TransformListener`: puts the bytes of TF messages into buffers
+`channel`                  the subscriptions that buffers share; what stores their messages
 `refusal_warnings`         warnings about refused transforms and full buffers
 `tf_topics`                the topics of transforms, and their type
 `links`                    the links of a buffer with rates and ages; its tree as text
