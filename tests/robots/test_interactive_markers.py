@@ -125,6 +125,7 @@ def test_a_user_moves_a_marker_and_the_server_hears_it(page):
         arm.wait_for(lambda: arm.chosen == [1])
 
 
+@pytest.mark.slow
 def test_a_server_that_comes_again_is_asked_again(page):
     page.evaluate(SHOW)
     page.wait_for_function(
@@ -137,6 +138,7 @@ def test_a_server_that_comes_again_is_asked_again(page):
         assert wait_until(page, f"async (at) => !(await ({IS_AT})(at))", ["first", 1])
 
 
+@pytest.mark.slow
 def test_a_server_that_starts_before_another_ends_is_asked(page):
     page.evaluate(SHOW)
     with contextlib.closing(Arm("first", 1.0)) as first:

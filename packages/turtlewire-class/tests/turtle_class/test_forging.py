@@ -155,6 +155,7 @@ for pid, _ in graders():
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux has /proc and capabilities")
 def test_the_processes_of_the_graders_are_closed(tmp_path):
     (tmp_path / FILE).write_text(PRELUDE + PEEK + silly("solved"), encoding="utf-8")
@@ -229,6 +230,7 @@ def test_lines_that_are_no_facts_are_left_out(line):
     assert facts == (["a", "b"], [], True)
 
 
+@pytest.mark.slow
 def test_an_exercise_whose_grading_fails_does_not_end_the_class(
     submissions, tmp_path, capsys, monkeypatch
 ):

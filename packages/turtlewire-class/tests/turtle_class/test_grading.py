@@ -77,6 +77,7 @@ def test_a_program_that_waits_is_ended_after_the_limit(tmp_path):
     assert "time.sleep()" in found.hint
 
 
+@pytest.mark.slow
 def test_a_flood_of_output_is_cut_and_does_not_fail(tmp_path):
     outcome = graded(tmp_path, "floods", PATIENT._replace(log=5000))
     assert outcome.passed

@@ -189,6 +189,7 @@ def page(domains):
         yield page
 
 
+@pytest.mark.slow
 def test_the_page_in_a_browser(page, student, browser):
     from playwright.sync_api import expect
 

@@ -184,6 +184,7 @@ print(turtlewire.tf.buffer.CORE, middleware_name())
 """
 
 
+@pytest.mark.slow
 def test_it_needs_no_thread_no_numpy_and_no_compiled_core():
     """As in a browser tab: what is missing there is taken away here."""
     code = TAB.format(python=str(LESSON_CODE), lesson=str(LESSONS / "listener"))

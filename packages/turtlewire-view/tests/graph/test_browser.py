@@ -80,6 +80,7 @@ def middle(page, key):
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
+@pytest.mark.slow
 def test_mismatches_are_red_and_have_a_reason(page):
     assert page.locator("#picture .arrow[data-bad]").count() == 2
     assert page.locator("#picture .policy").all_text_contents() == ["reliability"]
@@ -158,6 +159,7 @@ def test_switches_choose_what_is_shown(page):
     wait_for_robot(page)
 
 
+@pytest.mark.slow
 def test_the_list_is_searched_and_walked_with_keys(page):
     page.keyboard.press("/")
     page.keyboard.type("LIS")
@@ -177,6 +179,7 @@ def test_the_list_is_searched_and_walked_with_keys(page):
     assert row.get_attribute("aria-selected") == "true"
 
 
+@pytest.mark.slow
 def test_a_row_far_down_the_list_is_pressed(robot, open_graph):
     for number in range(40):
         robot.node(f"node_{number}")
@@ -199,6 +202,7 @@ def test_keys_move_the_picture(page):
     assert view_box(page) == whole
 
 
+@pytest.mark.slow
 def test_pointers_move_the_picture_and_select_nothing_then(page):
     whole = view_box(page)
     x, y = middle(page, "node /slam")
@@ -258,6 +262,7 @@ def test_the_page_fits_every_window(robot, open_graph, size):
     assert picture["y"] < y < picture["y"] + picture["height"]
 
 
+@pytest.mark.slow
 def test_the_size_of_texts_in_the_browser_counts(page):
     assert root_size_with(page, 24) == pytest.approx(22.5)
 

@@ -256,6 +256,7 @@ def two_depths():
     return picture_row("16UC1", np.array([[4000, 4000]], np.uint16))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("style", ["flat squares", "boxes"])
 def test_points_are_as_wide_as_their_pixels(eye, style):
     eye.show("depth_cloud", two_depths(), style=style, color="flat", flat_color="#ff0000")

@@ -133,6 +133,7 @@ def show(scene):
     return show
 
 
+@pytest.mark.slow
 def test_a_torque_is_a_ring_and_a_force_an_arrow(show):
     scene = show(pictured_states(turn=10))
     scene.expect_red((2.05, 0, 0), (1, 1.05, 0), (-0.05, 0, 0))

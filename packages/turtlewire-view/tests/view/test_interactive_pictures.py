@@ -285,6 +285,7 @@ def test_thousands_of_controls_are_cut_with_one_line(server):
     server.drag((0.7, 0, 0), (1.7, 0, 0))
 
 
+@pytest.mark.slow
 def test_options_redraw_the_markers(server):
     server.show(knob(control("move_axis"), description="title"))
     server.scene.expect_red((0.6, 0, 0))

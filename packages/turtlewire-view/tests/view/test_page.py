@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from tests.needs import only_first_is_fast
 from tests.pages import wait_until
 
 from .fake_view import IDENTITY, pose
@@ -155,6 +156,7 @@ def test_pressing_a_frame_highlights_its_path_to_the_fixed_frame(page, fake):
     near(page.evaluate(PIXELS, [along(3, 0)]), [RED])
 
 
+@pytest.mark.slow
 def test_shift_and_a_second_frame_asks_for_their_relation(page, fake):
     press(page, POSES[2][:3])
     press(page, POSES[3][:3], modifiers=["Shift"])
@@ -164,6 +166,7 @@ def test_shift_and_a_second_frame_asks_for_their_relation(page, fake):
     assert page.input_value("#relation-target") == "beacon"
 
 
+@pytest.mark.slow
 def test_an_arrow_leads_straight_from_the_frame_that_looks(page, fake):
     press(page, POSES[2][:3])
     press(page, POSES[3][:3], modifiers=["Shift"])
@@ -208,6 +211,7 @@ def camera_of(page):
     return in_page(page, "return stage.cameras.saved([0, 0, 0]);")
 
 
+@pytest.mark.slow
 def test_two_fingers_come_nearer_and_move_the_picture(phone):
     before = camera_of(phone)
     two_fingers(phone, [(-40, 0), (40, 0)], [(-100, 0), (100, 0)])
@@ -244,6 +248,7 @@ def test_fit_shows_displays_too(page, fake):
     assert in_page(page, body)
 
 
+@pytest.mark.slow
 def test_the_picture_comes_back_after_the_browser_took_it(page):
     assert tuple(page.evaluate(PIXELS, [[0, 0, 0]])[0]) != GROUND
     in_page(page, "globalThis.gl = stage.view.canvas.getContext('webgl2')"
@@ -264,6 +269,7 @@ WebGL2RenderingContext.prototype.getParameter = function (what) {
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("script", "smooth"), [("", False), (NAMED_AS_A_CARD, True)])
 def test_edges_are_smoothed_where_a_card_draws(told, open_view, script, smooth):
     page = open_view(told.url, script)
@@ -282,6 +288,7 @@ def test_without_webgl_the_tree_works(told, open_view):
     told.wait_for(lambda c: c["type"] == "relation" and c.get("source") == "arm")
 
 
+@pytest.mark.slow
 def test_a_saved_camera_is_looked_through_again(fresh, fake):
     camera = {"kind": "orbit", "frame": "", "focus": [1.0, 2.0, 0.5]}
     angles = {"distance": 7.0, "yaw": 0.4, "pitch": 0.6, "scale": None}
@@ -337,7 +344,7 @@ def test_a_pressed_button_is_as_clear_below_the_mouse(page):
     assert page.evaluate(color) == below
 
 
-@pytest.mark.parametrize("camera", ["orbit", "top"])
+@pytest.mark.parametrize("camera", only_first_is_fast("orbit", "top"))
 def test_a_followed_frame_stays_where_it_is(page, fake, camera):
     page.click(f"#{camera}")
     page.click("#tree .row:has-text('arm')")
@@ -374,6 +381,7 @@ def test_keys_turn_and_approach_the_picture(page):
     assert in_page(page, distance) > far
 
 
+@pytest.mark.slow
 def test_trees_that_are_not_connected_stand_apart_and_are_named(fake, open_view):
     fake.names({"world": "", "base": "world", "map": "", "odom": "map"})
     fake.frames([IDENTITY, pose(2, 0), IDENTITY, pose(1, 1)])
@@ -430,6 +438,7 @@ def test_frames_fade_as_in_rviz(page):
     ]
 
 
+@pytest.mark.slow
 def test_old_frames_are_grey_and_then_gone(page, fake):
     fake.frames(POSES, stamps=[0, 5, 5, 0])
     in_page(page, "while (!frames.stamps[1]) await new Promise(requestAnimationFrame);")
@@ -449,6 +458,7 @@ def test_old_frames_are_grey_and_then_gone(page, fake):
     near(page.evaluate(PIXELS, [along(1, 1), along(3, 1)]), [GROUND, GREEN])
 
 
+@pytest.mark.slow
 def test_a_trail_stays_where_a_frame_was(page, fake):
     page.click("#tree .row:has-text('beacon')")
     page.click("#trail")
@@ -462,6 +472,7 @@ def test_a_trail_stays_where_a_frame_was(page, fake):
     assert tuple(beside) == GROUND
 
 
+@pytest.mark.slow
 def test_a_trail_outlives_other_names_but_not_another_fixed_frame(page, fake):
     page.click("#tree .row:has-text('beacon')")
     page.click("#trail")
@@ -499,6 +510,7 @@ def test_nothing_is_drawn_while_nothing_changes(page):
     assert drawn == [0, 1]
 
 
+@pytest.mark.slow
 def test_at_most_fifty_names_and_always_the_selected_one(fake, open_view):
     names = {f"link{k}": f"link{k - 1}" if k else "" for k in range(1000)}
     fake.names(names)

@@ -76,6 +76,7 @@ def test_the_tree_tells_rate_age_publisher_and_what_is_static(page):
     assert kinds == expected
 
 
+@pytest.mark.slow
 def test_search_finds_names_and_publishers(page):
     page.fill("#search", "TURTLE")
     assert shown(page) == ["turtle1", "turtle2"]
@@ -116,6 +117,7 @@ def active(page) -> str:
     }""")
 
 
+@pytest.mark.slow
 def test_arrow_keys_go_in_and_out_of_branches(page):
     page.click("#tree .row:has(.name:text-is('turtle1'))")
     assert active(page).startswith("turtle1, 62 Hz")
@@ -131,6 +133,7 @@ def test_arrow_keys_go_in_and_out_of_branches(page):
     assert "carrot1" in shown(page)
 
 
+@pytest.mark.slow
 def test_the_selected_row_stays_in_sight_when_the_numbers_open(fake, open_view):
     names = {"world": "", **{f"link{number}": "world" for number in range(30)}}
     fake.names(names)
@@ -164,6 +167,7 @@ def test_a_phone_reads_nothing_of_keys(told, open_view):
     assert "Shift" not in page.locator("#help").inner_text()
 
 
+@pytest.mark.slow
 def test_frames_are_hidden_by_a_regular_expression_or_one_by_one(page):
     hidden = "return [...frames.hidden]"
     page.fill("#hide", "^turtle[12]$")
@@ -235,6 +239,7 @@ def test_values_rounded_to_zero_have_no_sign(page, fake):
     assert page.inner_text("#matrix td >> nth=0") == "0.000"
 
 
+@pytest.mark.slow
 def test_why_a_relation_is_not_known(page, fake):
     page.click("#tree .row:has(.name:text-is('turtle2'))")
     page.select_option("#relation-target", "carrot1")
@@ -374,6 +379,7 @@ def test_topics_are_offered_and_others_are_named(page, fake):
     assert page.inner_text("#other-topics") == "No display shows: /rosout"
 
 
+@pytest.mark.slow
 def test_a_display_that_the_page_cannot_draw_says_so(page, fake):
     fake.tell({"type": "topics", "topics": [{"name": "/x", "type": "y", "kind": "no_such_kind"}]})
     page.wait_for_selector("#add-display:enabled")
@@ -434,6 +440,7 @@ def test_a_line_that_does_not_pass_stands_again_after_one_that_does(fake, open_v
     page.wait_for_selector("#notice[data-level=error]:text('The bag has no frames.')")
 
 
+@pytest.mark.slow
 def test_tools_that_publish_say_why_they_do_not_in_a_bag(fake, open_view):
     why = "You cannot publish into a bag."
     fake.tell({"type": "hello", "source": {"kind": "bag", "name": "walk.mcap"}})

@@ -114,6 +114,7 @@ def assert_blocked(tab, address):
 # JupyterHub and Binder
 
 
+@pytest.mark.slow
 def test_a_hub_shows_the_view_in_an_isolated_output(hub, tab):
     answer(tab, f"{hub.home}/lab", isolated(hub.view._repr_html_()))
     tab.goto(f"{hub.home}/lab")

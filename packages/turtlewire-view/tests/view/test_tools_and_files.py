@@ -155,6 +155,7 @@ def test_a_file_that_is_no_view_is_a_line(scene, tmp_path):
     )
 
 
+@pytest.mark.slow
 def test_unsupported_parts_of_a_view_are_listed_until_they_are_dismissed(scene, tmp_path):
     file = tmp_path / "view.rviz"
     file.write_text(

@@ -113,6 +113,7 @@ def test_it_reads_and_subscribes_only_while_it_reads(simulator, connection):
     talk(dialogue)
 
 
+@pytest.mark.slow
 def test_a_field_becomes_a_curve(simulator):
     async def dialogue(assistant):
         (text, image), failed = await assistant.content(
@@ -205,6 +206,7 @@ def test_the_assistant_does_what_is_allowed(simulator, connection):
     talk(dialogue, "--allow", "/spawn", "--allow", "chatter", "--allow", "/turtle1/*")
 
 
+@pytest.mark.slow
 def test_wrong_names_and_numbers_are_explained(simulator):
     async def dialogue(assistant):
         text = await assistant.refused("echo", topic="/turtle1/pos")
@@ -275,6 +277,7 @@ def test_too_many_calls_are_refused():
     talk(dialogue, "--rate", "2")
 
 
+@pytest.mark.slow
 def test_one_drive_at_a_time(simulator):
     async def dialogue(assistant):
         async def drive():

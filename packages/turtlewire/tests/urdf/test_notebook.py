@@ -137,6 +137,7 @@ def commands(text):
     return [line.rstrip("\n") for line in found]
 
 
+@pytest.mark.slow
 def test_the_page_does_what_it_says(run, tmp_path):
     path = PATH
     options = {"cwd": tmp_path, "environment": {"PATH": path}}

@@ -151,6 +151,7 @@ def test_parameters_of_another_node(start, run):
     assert "  - int_parameter: 10" in client.text
 
 
+@pytest.mark.slow
 def test_services_that_are_watched(start, run):
     service = start("demo_nodes_py", "introspection_service")
     client = start("demo_nodes_py", "introspection_client")

@@ -159,6 +159,7 @@ def join_late(open_node, stamped, enough_joins, *, leaving, sending, child):
                     assert set(buffer._getFrameStrings()) == there
 
 
+@pytest.mark.slow
 def test_no_peer_is_lost_over_a_thousand_joins(make_node, stamped):
     def child(_, chance):
         return f"frame{chance.randrange(12)}"

@@ -52,6 +52,7 @@ def test_the_turtle_is_shown_where_it_is(simulator, page):
     assert page.title() == "turtlesim /sim"
 
 
+@pytest.mark.slow
 def test_another_device_is_served_below_the_token(make_simulator, open_page):
     simulator = make_simulator(lan=True)
     middle = simulator.turtle1.x
@@ -97,6 +98,7 @@ def test_a_button_that_is_held_repeats_its_command(simulator, page):
     assert {*simulator.commands} == {Drive("turtle1", 0.0, 2.0)}
 
 
+@pytest.mark.slow
 def test_keys_and_buttons_turn_to_a_heading(simulator, page):
     headings = {
         "g": 0.0,
@@ -157,6 +159,7 @@ def test_a_crowd_moves_and_draws(simulator, page):
     wait_for_pixel(page, "turtles", 2.0, 2.0, lambda colour: colour[3] == 0)  # its neighbours, too
 
 
+@pytest.mark.slow
 def test_two_browsers_show_the_same_world(simulator, open_page):
     one = open_page(simulator.screen.url)
     middle = simulator.turtle1.x
@@ -299,6 +302,7 @@ def test_the_frames_are_shown_live_and_a_transform_in_plain_words(simulator, pag
     )
 
 
+@pytest.mark.slow
 def test_a_screen_reader_finds_its_way(simulator, page):
     page.get_by_role("status").get_by_text("live").wait_for()
     page.get_by_role("cell", name="5.54").first.wait_for()

@@ -145,6 +145,7 @@ def box(page, selector: str) -> tuple[float, float, float, float]:
     return left, top, left + found["width"], top + found["height"]
 
 
+@pytest.mark.slow
 def test_a_phone_on_its_side_shows_pad_and_field_side_by_side(simulator, open_page):
     for width, height in ((667, 375), (740, 360), (932, 430)):
         size = {"width": width, "height": height}
