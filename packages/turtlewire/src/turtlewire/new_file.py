@@ -14,9 +14,9 @@ __all__ = ["new_file"]
 def new_file(path: str | os.PathLike[str]) -> Iterator[str]:
     """Yield the path of a file to make, which replaces ``path`` at the end.
 
-    If the block raises an exception, the file is removed, and ``path`` stays as it was. The file
-    that a killed process has left in its place is removed first. A symbolic link is followed; a
-    device or a pipe cannot be replaced, and is yielded itself.
+    If the block raises an exception, the file is removed, and ``path`` stays as it was. What a
+    killed process has left unfinished is removed, too. A symbolic link is followed; a device or a
+    pipe cannot be replaced, and is yielded itself.
 
     Raises:
         OSError: ``path`` cannot be written, or the disk is full. The error names ``path``.
