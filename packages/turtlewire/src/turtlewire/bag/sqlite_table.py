@@ -78,16 +78,10 @@ class DatabaseFile:
         """The size in bytes. Needs no name, which a decompressed copy has lost."""
         return os.fstat(self._file.fileno()).st_size
 
-    @property
-    def has_log(self) -> bool:
-        """True if a write-ahead log lies next to the file."""
-        return log_exists(self.path)
-
     def header(self) -> bytes:
-        """Return the first bytes."""
-        with self._lock:
-            self._file.seek(0)
-            return self._file.read(32)
+        """Return the first bytes, as many as there are."""
+        # Forked processes share the position in the file: a read could begin anywhere.
+        return self.pages()[:32] if self.size else b""
 
     def pages(self) -> mmap.mmap:
         """Return the content, in a new map if the size has changed."""
@@ -115,7 +109,7 @@ def table_blocks(
         None if all messages were read. Otherwise the id of the last row that was read: the rows
         after it are for SQL, because they are damaged or not in rosbag2's form.
     """
-    if asked_core() == "python" or file.has_log:
+    if asked_core() == "python" or log_exists(file.path):
         return BEFORE_ALL_IDS
     guard = database.cursor()
     try:
