@@ -167,4 +167,32 @@ def test_each_executable_of_this_distribution_ends_so():
     assert len(libexec) > 50
     for path in libexec:
         text = path.read_text(encoding="utf-8")
-        assert re.search(r"sys\.exit\(program\(\w+\)\(\)\)", text), path
+        assert re.search(r'sys\.exit\(run_executable\("[\w.]+:\w+"\)\)', text), path
+
+
+INTERRUPTED = """
+import os, signal, weakref
+
+class Module:
+    pass
+
+module = Module()
+# Python drops what is raised in here, as at the end of an import.
+end = weakref.ref(module, lambda _: os.kill(os.getpid(), signal.SIGINT))
+del module
+
+def main():
+    return 7
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a process of Windows has no signal")
+@pytest.mark.parametrize(("before", "status"), [("SIG_IGN", 7), ("default_int_handler", -2)])
+def test_ctrl_c_at_the_end_of_an_import_ends_an_executable(tmp_path, before, status):
+    (tmp_path / "a_node.py").write_text(INTERRUPTED)
+    code = f"import signal; signal.signal(signal.SIGINT, signal.{before})\n"
+    code += "import sys; from turtlewire.program import run_executable\n"
+    code += "sys.exit(run_executable('a_node:main'))"
+    environment = {"PYTHONPATH": str(tmp_path)}
+    done = ended([sys.executable, "-c", code], environment=environment, stderr=subprocess.PIPE)
+    assert (done.returncode, done.stderr) == (status, "")

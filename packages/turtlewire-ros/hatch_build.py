@@ -52,10 +52,9 @@ _PACKAGE_XML = """<?xml version="1.0"?>
 _EXECUTABLE = """#!/usr/bin/env python3
 import sys
 
-from turtlewire.program import program
-from {module} import {function}
+from turtlewire.program import run_executable
 
-sys.exit(program({function})())
+sys.exit(run_executable("{entry_point}"))
 """
 
 
@@ -166,10 +165,7 @@ class PrefixBuildHook(BuildHookInterface):  # type: ignore[type-arg]
         self._write(f"share/{name}/COLCON_IGNORE", "")
 
     def _add_executable(self, package: str, name: str, target: str) -> None:
-        module, function = target.split(":")
-        path = self._write(
-            f"lib/{package}/{name}", _EXECUTABLE.format(module=module, function=function)
-        )
+        path = self._write(f"lib/{package}/{name}", _EXECUTABLE.format(entry_point=target))
         path.chmod(0o755)
 
     def _write(self, path: str, text: str) -> Path:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import errno
 import functools
+import importlib
 import io
 import os
 import signal
@@ -63,6 +64,25 @@ def program(main: Callable[_Arguments, _Status]) -> Callable[_Arguments, _Status
         return status if raw.end is None else raw.end
 
     return run
+
+
+def run_executable(entry_point: str) -> int | str | None:
+    """Import the function ``module:function`` and run it, decorated with :func:`program`.
+
+    Ctrl-C during the imports ends the process with SIGINT, without a traceback: Python drops an
+    exception that comes at the end of an import, and the process would go on.
+
+    Returns:
+        What ``sys.exit`` takes.
+    """
+    interrupts = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if interrupts:  # not if the parent ignores SIGINT
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    module, _, function = entry_point.partition(":")
+    main: Callable[[], int | str | None] = getattr(importlib.import_module(module), function)
+    if interrupts:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    return program(main)()
 
 
 def open_output(descriptor: int) -> TextIO:
