@@ -250,7 +250,9 @@ class BaseClock:
         """
         self._require_ros_time("set ROS time override", "set time override")
         if not isinstance(time, Time):
-            raise TypeError("Time must be specified as rclpy.time.Time.")
+            raise TypeError(
+                f"Time must be specified as rclpy.time.Time. Received type: {type(time)}"
+            )
 
         def switch() -> None:
             self._override_ns = time.nanoseconds

@@ -44,8 +44,8 @@ class NotInitializedException(Exception):
     """Something needs ``rclpy.init()`` first."""
 
     def __init__(self, message: str | None = None) -> None:
-        text = "rclpy.init() has not been called"
-        super().__init__(f"{text}. msg:{message}" if message else text)
+        text = "rclpy.init() has not been called."
+        super().__init__(f"{text} msg:{message}" if message else text)
 
 
 class NoTypeSupportImportedException(Exception):
@@ -149,11 +149,10 @@ class InvalidParameterTypeException(ParameterException):
     is_of_command_line = False
 
     def __init__(self, desired_parameter: Parameter, expected_type: str) -> None:
-        # One line with all facts, unlike the base's "text: name".
-        Exception.__init__(
-            self,
+        super().__init__(
             f"Trying to set parameter '{desired_parameter.name}' to '{desired_parameter.value}'"
             f" of type '{desired_parameter.type_.name}', expecting type '{expected_type}'",
+            desired_parameter.name,
         )
 
 
@@ -161,8 +160,9 @@ class InvalidParameterValueException(ParameterException):
     """A value is out of range or was rejected by a callback."""
 
     def __init__(self, parameter: str, value: Any, reason: str) -> None:
-        text = f"Invalid parameter value ({value}) for parameter"
-        super().__init__(f"{text}. Reason: {reason}" if reason else text, parameter)
+        super().__init__(
+            f"Invalid parameter value ({value}) for parameter. Reason: {reason}", parameter
+        )
 
 
 class ParameterImmutableException(ParameterException):
@@ -176,7 +176,9 @@ class ParameterUninitializedException(ParameterException):
     """A parameter that was declared with a type alone is read before it has a value."""
 
     def __init__(self, parameter_name: Any, *args: object) -> None:
-        super().__init__("The parameter is not initialized", parameter_name, *args)
+        super().__init__(
+            f"The parameter '{parameter_name}' is not initialized", parameter_name, *args
+        )
 
 
 class TimeSourceChangedError(Exception):

@@ -135,14 +135,18 @@ class Executor:
             index = self._nodes[node] = self._nodes_made
             self._nodes_made += 1
         former = node.executor
-        if former is not None:
+        if former is not None and former is not self:
             former.remove_node(node)
         node._rclpy_served_by(self)
         node._rclpy_endpoints.attach(self._rclpy_scheduler, index)
         return True
 
     def remove_node(self, node: Node) -> None:
-        """Serve ``node`` no longer; nothing happens when it does not."""
+        """Serve ``node`` no longer; nothing happens when it does not.
+
+        As in ROS 2, ``node.executor`` stays, so that threads can give it tasks between two calls
+        of :func:`rclpy.spin_once`.
+        """
         node = _node_of(node)
         with self._rclpy_scheduler.lock:
             index = self._nodes.pop(node, None)
@@ -151,7 +155,6 @@ class Executor:
             if index == self._nodes_made - 1:  # the same index if it comes back at once
                 self._nodes_made = index
         node._rclpy_endpoints.detach(self._rclpy_scheduler)
-        node._rclpy_served_by(None)
 
     def get_nodes(self) -> list[Node]:
         """Return the nodes that it serves."""

@@ -14,13 +14,13 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
         ValueError: A name is invalid.
     """
     for what, fault in (
-        ("topic name is invalid", names.validate_topic_name(topic_name)),
-        ("node name is invalid", names.validate_node_name(node_name)),
-        ("node namespace is invalid", names.validate_namespace(node_namespace)),
+        (f"topic name '{topic_name}'", names.validate_topic_name(topic_name)),
+        (f"node name '{node_name}'", names.validate_node_name(node_name)),
+        (f"node namespace '{node_namespace}'", names.validate_namespace(node_namespace)),
     ):
         if fault is not None:
-            raise ValueError(f"{what}: {fault.message}")
+            raise ValueError(f"{what} is invalid: {fault.message}")
     try:
         return names.expand_topic_name(topic_name, node_name, node_namespace)
     except ValueError as error:
-        raise ValueError(f"topic name is invalid: {error}") from None
+        raise ValueError(f"topic name '{topic_name}' is invalid: {error}") from None

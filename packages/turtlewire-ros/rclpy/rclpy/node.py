@@ -160,7 +160,7 @@ class Node(BaseNode):
 
     @property
     def executor(self) -> Executor | None:
-        """The executor that serves it; setting it moves the node there."""
+        """The last executor that served it; setting it moves the node there."""
         return None if self.__executor is None else self.__executor()
 
     @executor.setter
@@ -170,10 +170,11 @@ class Node(BaseNode):
             new_executor.add_node(self)
         elif current is not None:
             current.remove_node(self)
+            self.__executor = None
 
-    def _rclpy_served_by(self, executor: Executor | None) -> None:
+    def _rclpy_served_by(self, executor: Executor) -> None:
         """Note the executor that serves it."""
-        self.__executor = None if executor is None else weakref.ref(executor)
+        self.__executor = weakref.ref(executor)
 
     @property
     def default_callback_group(self) -> CallbackGroup:

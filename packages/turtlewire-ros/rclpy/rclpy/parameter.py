@@ -165,9 +165,10 @@ def parameter_value_to_python(parameter_value: rcl_interfaces.msg.ParameterValue
         type_ = Parameter.Type(parameter_value.type)
     except ValueError:
         raise RuntimeError(f"unexpected parameter type {parameter_value.type}") from None
-    return (
-        None if type_ is Parameter.Type.NOT_SET else getattr(parameter_value, _value_field(type_))
-    )
+    if type_ is Parameter.Type.NOT_SET:
+        return None
+    value = getattr(parameter_value, _value_field(type_))
+    return list(value) if _is_array(value) else value
 
 
 def get_parameter_value(string_value: str) -> rcl_interfaces.msg.ParameterValue:
@@ -190,7 +191,9 @@ def _value_from_yaml(value: Any, text: str) -> rcl_interfaces.msg.ParameterValue
     ``text`` stands in for what no parameter can hold (null, dates, mixed lists).
     """
     try:
-        parameter = Parameter("", value=value)
+        # An empty list has values of each type; as in ROS 2, the first one that is tried.
+        type_ = Parameter.Type.BOOL_ARRAY if value == [] else None
+        parameter = Parameter("", type_, value)
     except TypeError:
         parameter = Parameter("", value=text)
     if parameter.type_ is Parameter.Type.NOT_SET:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from enum import Enum, IntEnum
+from enum import Enum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from turtlewire.distro import KILTED, since
@@ -277,8 +277,8 @@ class QoSPresetProfiles(Enum):
     SERVICES_DEFAULT = qos_profile_services_default
     PARAMETERS = qos_profile_parameters
     PARAMETER_EVENTS = qos_profile_parameter_events
-    BEST_AVAILABLE = qos_profile_best_available
     ACTION_STATUS_DEFAULT = qos_profile_action_status_default
+    BEST_AVAILABLE = qos_profile_best_available
     if since(KILTED):
         ROSOUT_DEFAULT = qos_profile_rosout_default
 
@@ -297,7 +297,7 @@ class QoSPresetProfiles(Enum):
         return cls[name.upper()].value
 
 
-class QoSCompatibility(IntEnum):
+class QoSCompatibility(Enum):
     """The result of comparing the QoS of a publisher and a subscription."""
 
     OK = 0

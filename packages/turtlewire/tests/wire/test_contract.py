@@ -701,7 +701,7 @@ def test_nothing_is_made_on_a_closed_node(node: Node, other: Node, closed: str):
         ("/\ud800", "topic name must not contain characters other than alphanumerics, '_', or '/'"),
         ("/a b", "topic name must not contain characters other than alphanumerics, '_', or '/'"),
         ("/é", "topic name must not contain characters other than alphanumerics, '_', or '/'"),
-        ("/" + "x" * 247, "topic length should not exceed '247'"),
+        ("/" + "x" * 247, "topic length should not exceed '255U - 8U'"),
     ],
 )
 def test_a_wrong_name_is_refused_with_ros_2s_reason(node: Node, name: str, fault: str):

@@ -62,7 +62,7 @@ def test_topic_names_that_are_allowed(name: str):
         ("/a//b", "topic name must not contain repeated '/'", 3),
         ("//b", "topic name must not contain repeated '/'", 1),
         ("/a/4b", "topic name must not have a token that starts with a number", 3),
-        ("/" + "a" * 247, "topic length should not exceed '247'", 246),
+        ("/" + "a" * 247, "topic length should not exceed '255U - 8U'", 246),
     ],
 )
 def test_full_topic_names_that_are_refused(name: str, message: str, index: int):
@@ -78,7 +78,7 @@ def test_full_topic_names_that_are_refused(name: str, message: str, index: int):
         ("/a b", "namespace must not contain characters other than alphanumerics, '_', or '/'", 2),
         ("/a//b", "namespace must not contain repeated '/'", 3),
         ("/4b", "namespace must not have a token that starts with a number", 1),
-        ("/" + "a" * 245, "namespace should not exceed '245'", 244),
+        ("/" + "a" * 245, "namespace should not exceed 'RMW_NAMESPACE_MAX_NAME_LENGTH'", 244),
     ],
 )
 def test_namespaces_that_are_refused(name: str, message: str, index: int):

@@ -194,7 +194,10 @@ def _integer_refusal(parameter: Parameter, ranges: Sequence[IntegerRange]) -> st
     if not low < value < high:
         return _out_of_range(parameter.name, value, low, high)
     if ranges[0].step and (value - low) % ranges[0].step:
-        return _off_step(parameter, low, high, ranges[0].step)
+        return (
+            f"The parameter value for {parameter.name} is not a valid step. Min: {low}, "
+            f"max: {high}, value: {value}, step: {ranges[0].step}"
+        )
     return ""
 
 
@@ -204,9 +207,12 @@ def _double_refusal(parameter: Parameter, limits: FloatingPointRange) -> str:
     if _is_close(value, low) or _is_close(value, high):
         return ""
     if not low < value < high:
-        return _out_of_range(parameter.name, value, low, high)
+        return f"Parameter {parameter.name} out of range Min: {low}, Max: {high}, value: {value}"
     if limits.step and not _is_on_step(value, low, limits.step):
-        return _off_step(parameter, low, high, limits.step)
+        return (
+            f"The parameter value for {parameter.name} is not close enough to a valid step. "
+            f"Min: {low}, max: {high}, value: {value}, step: {limits.step}"
+        )
     return ""
 
 
@@ -221,10 +227,5 @@ def _is_close(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=_REL_TOL)
 
 
-def _out_of_range(name: str, value: float, low: float, high: float) -> str:
+def _out_of_range(name: str, value: int, low: int, high: int) -> str:
     return f"Parameter {name} out of range. Min: {low}, Max: {high}, value: {value}"
-
-
-def _off_step(parameter: Parameter, low: float, high: float, step: float) -> str:
-    text = f"The parameter value for {parameter.name} is not a valid step."
-    return f"{text} Min: {low}, max: {high}, value: {parameter.value}, step: {step}"

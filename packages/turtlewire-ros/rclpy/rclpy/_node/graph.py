@@ -78,7 +78,7 @@ class NodeGraph:
             # Other DDS topics, service topics included, have no ROS name.
             return (endpoint.topic, endpoint.type_name) if endpoint.topic.startswith("/") else None
 
-        return self._of_node(kind, node_name, node_namespace, name_and_type)
+        return self._of_node(kind, kind, node_name, node_namespace, name_and_type)
 
     def services_by_node(self, kind: str, node_name: str, node_namespace: str) -> NamesAndTypes:
         """Return the services that a node offers (``kind`` "service") or calls ("client").
@@ -93,6 +93,7 @@ class NodeGraph:
 
         # a server is known by the requests it reads, a client by those it writes
         return self._of_node(
+            kind,
             "subscription" if kind == "service" else "publisher",
             node_name,
             node_namespace,
@@ -101,6 +102,7 @@ class NodeGraph:
 
     def _of_node(
         self,
+        what: str,
         kind: str,
         node_name: str,
         node_namespace: str,
@@ -110,11 +112,12 @@ class NodeGraph:
             (node.name, node.namespace) == (node_name, node_namespace)
             for node in self._graph.nodes()
         ):
-            fqn = names.fully_qualified_node_name(node_name, node_namespace)
-            raise NodeNameNonExistentError(
-                "Failed to get names and types: cannot get names and types for nonexistent node: "
-                f"{fqn}"
+            what = "subscriber" if what == "subscription" else what
+            error = NodeNameNonExistentError(
+                f"cannot get {what} names and types for nonexistent node: error not set"
             )
+            fqn = names.fully_qualified_node_name(node_name, node_namespace)
+            raise with_hint(error, f"No node {fqn} is known")
         found: dict[str, set[str]] = {}
         for endpoint in self._graph.endpoints():
             owner = endpoint.node

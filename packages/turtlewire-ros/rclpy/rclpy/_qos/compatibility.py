@@ -5,7 +5,8 @@ Used by :func:`rclpy.qos.qos_check_compatible`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from typing import NamedTuple
 
 from rclpy.qos import (
     DurabilityPolicy,
@@ -16,12 +17,6 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 from turtlewire.wire.environment import compares_qos
-
-if TYPE_CHECKING:
-    from rclpy.duration import Duration
-
-# Not set, and ROS 2's infinite duration.
-_UNLIMITED_NS = (0, 2**63 - 1)
 
 
 def check(publisher: QoSProfile, subscription: QoSProfile) -> tuple[QoSCompatibility, str]:
@@ -35,7 +30,7 @@ def check(publisher: QoSProfile, subscription: QoSProfile) -> tuple[QoSCompatibi
     errors = _errors(publisher, subscription)
     if errors:
         return QoSCompatibility.ERROR, "".join(f"ERROR: {text};" for text in errors)
-    warnings = _warnings(publisher, subscription)
+    warnings = list(_warnings(publisher, subscription))
     if warnings:
         return QoSCompatibility.WARNING, "".join(f"WARNING: {text};" for text in warnings)
     return QoSCompatibility.OK, ""
@@ -66,8 +61,8 @@ def _errors(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
         and subscription.durability == DurabilityPolicy.TRANSIENT_LOCAL
     ):
         found.append("Volatile publisher and transient local subscription")
-    if _is_limited(subscription.deadline):
-        if not _is_limited(publisher.deadline):
+    if subscription.deadline.nanoseconds:  # as in ROS 2, "infinite" is a deadline, too
+        if not publisher.deadline.nanoseconds:
             found.append("Subscription has a deadline, but publisher does not")
         elif subscription.deadline < publisher.deadline:
             found.append("Subscription deadline is less than publisher deadline")
@@ -76,72 +71,71 @@ def _errors(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
         and subscription.liveliness == LivelinessPolicy.MANUAL_BY_TOPIC
     ):
         found.append("Publisher's liveliness is automatic and subscription's is manual by topic")
-    if _is_limited(subscription.liveliness_lease_duration):
-        if not _is_limited(publisher.liveliness_lease_duration):
+    if subscription.liveliness_lease_duration.nanoseconds:
+        if not publisher.liveliness_lease_duration.nanoseconds:
             found.append("Subscription has a liveliness lease duration, but publisher does not")
         elif subscription.liveliness_lease_duration < publisher.liveliness_lease_duration:
             found.append("Subscription liveliness lease duration is less than publisher")
     return found
 
 
-def _warnings(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
-    reliability, durability = (
-        (publisher.reliability, subscription.reliability),
-        (publisher.durability, subscription.durability),
+class _Texts(NamedTuple):
+    """ROS 2's texts of a policy that the middleware will settle, in its own spelling."""
+
+    both_open: str
+    offer_open: str
+    request_open: str
+
+
+_RELIABILITY = _Texts(
+    "Publisher reliability is {} and subscription reliability is {}",
+    "Reliable subscription, but publisher is {}",
+    "Best effort publisher, but subscription is {}",
+)
+_DURABILITY = _Texts(
+    "Publisher durabilty is {} and subscription durability is {}",
+    "Transient local subscription, but publisher is {}",
+    "Volatile publisher, but subscription is {}",
+)
+_LIVELINESS = _Texts(
+    "Publisher liveliness is {} and subscription liveliness is {}",
+    "Subscription's liveliness is manual by topic, but publisher's is {}",
+    "Publisher's liveliness is automatic, but subscription's is {}",
+)
+
+
+def _warnings(publisher: QoSProfile, subscription: QoSProfile) -> Iterator[str]:
+    yield from _open(
+        _RELIABILITY,
+        (publisher.reliability, ReliabilityPolicy.BEST_EFFORT),
+        (subscription.reliability, ReliabilityPolicy.RELIABLE),
     )
-    liveliness = (publisher.liveliness, subscription.liveliness)
-    findings = [
-        _open(
-            "reliability", *reliability, ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE
-        ),
-        _open(
-            # ROS 2's own spelling.
-            "durabilty",
-            *durability,
-            DurabilityPolicy.VOLATILE,
-            DurabilityPolicy.TRANSIENT_LOCAL,
-        ),
-    ]
-    # Both are open in every preset, and then the middleware settles on the same value.
-    if not all(map(_is_open, liveliness)):
-        findings.append(
-            _open(
-                "liveliness",
-                *liveliness,
-                LivelinessPolicy.AUTOMATIC,
-                LivelinessPolicy.MANUAL_BY_TOPIC,
-            )
-        )
-    return [finding for finding in findings if finding]
+    yield from _open(
+        _DURABILITY,
+        (publisher.durability, DurabilityPolicy.VOLATILE),
+        (subscription.durability, DurabilityPolicy.TRANSIENT_LOCAL),
+    )
+    yield from _open(
+        _LIVELINESS,
+        (publisher.liveliness, LivelinessPolicy.AUTOMATIC),
+        (subscription.liveliness, LivelinessPolicy.MANUAL_BY_TOPIC),
+    )
 
 
 def _open(
-    policy: str,
-    offered: QoSPolicyEnum,
-    requested: QoSPolicyEnum,
-    weakest_offer: QoSPolicyEnum,
-    strictest_request: QoSPolicyEnum,
-) -> str:
-    """Return the warning for a policy that the middleware will settle."""
+    texts: _Texts,
+    offer: tuple[QoSPolicyEnum, QoSPolicyEnum],
+    request: tuple[QoSPolicyEnum, QoSPolicyEnum],
+) -> Iterator[str]:
+    """Compare the offer, given with the weakest one, to the request, given with the strictest."""
+    (offered, weakest), (requested, strictest) = offer, request
     if _is_open(offered) and _is_open(requested):
-        return (
-            f"Publisher {policy} is {_text(offered)} and subscription {policy} is "
-            f"{_text(requested)}"
-        )
-    if _is_open(offered) and requested == strictest_request:
-        return f"{_text(requested).capitalize()} subscription, but publisher is {_text(offered)}"
-    if offered == weakest_offer and _is_open(requested):
-        return f"{_text(offered).capitalize()} publisher, but subscription is {_text(requested)}"
-    return ""
-
-
-def _is_limited(duration: Duration) -> bool:
-    return duration.nanoseconds not in _UNLIMITED_NS
+        yield texts.both_open.format(offered.short_key, requested.short_key)
+    elif _is_open(offered) and requested == strictest:
+        yield texts.offer_open.format(offered.short_key)
+    elif offered == weakest and _is_open(requested):
+        yield texts.request_open.format(requested.short_key)
 
 
 def _is_open(value: QoSPolicyEnum) -> bool:
     return value.name in {"SYSTEM_DEFAULT", "UNKNOWN"}
-
-
-def _text(value: QoSPolicyEnum) -> str:
-    return value.short_key.replace("_", " ")

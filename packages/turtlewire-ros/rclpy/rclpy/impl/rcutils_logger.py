@@ -94,7 +94,7 @@ class Throttle(LoggingFilter):
         clock = context["throttle_time_source_type"]
         if not callable(getattr(clock, "now", None)):
             raise ValueError(  # noqa: TRY004 - ROS 2's
-                f'Received throttle_time_source_type of "{clock}" is not a clock instance.'
+                f'Received throttle_time_source_type of "{clock}" is not a clock instance'
             )
         context["throttle_last_logged"] = None
 

@@ -227,7 +227,13 @@ class LifecycleNodeMixin(ManagedEntity):
     # Managed entities
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
-        """Let ``entity`` take part in transitions."""
+        """Let ``entity`` take part in transitions.
+
+        Raises:
+            TypeError: The argument is not a managed entity.
+        """
+        if not isinstance(entity, ManagedEntity):
+            raise TypeError("Expected a rclpy.lifecycle.ManagedEntity instance.")
         self._managed_entities.append(entity)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:

@@ -446,7 +446,7 @@ def test_a_goal_can_be_executed_between_two_spins(context):
         handle = send(client, finish)
         while not accepted:
             rclpy.spin_once(node, executor=executor, timeout_sec=60)
-        assert node.executor is None
+        assert executor.get_nodes() == []
         accepted[0].execute()
         assert finish(handle.get_result_async()).status == GoalStatus.STATUS_SUCCEEDED
     client.destroy()

@@ -85,7 +85,9 @@ def test_ros_time_follows_the_override_while_active():
     assert clock.now() == ros_time(7)
     clock._set_ros_time_is_active(False)
     assert clock.now().nanoseconds > 7
-    with pytest.raises(TypeError, match=r"^Time must be specified as rclpy.time.Time.$"):
+    with pytest.raises(
+        TypeError, match=r"^Time must be specified as rclpy.time.Time. Received type: "
+    ):
         clock.set_ros_time_override(7)
 
 

@@ -120,7 +120,7 @@ CHANGES = {
     ),
     "the last preset": (
         "from rclpy.qos import QoSPresetProfiles; print(QoSPresetProfiles.short_keys()[-1])",
-        {"jazzy": "action_status_default", "kilted": "rosout_default"},
+        {"jazzy": "best_available", "kilted": "rosout_default"},
     ),
     "clocks of ROS time": (
         CLOCKS,

@@ -166,6 +166,9 @@ def test_a_node_leaves_the_executor_it_was_in(context, node, executor):
     assert other.get_nodes() == []
     executor.remove_node(node)
     executor.remove_node(node)
+    assert executor.get_nodes() == []
+    assert node.executor is executor
+    node.executor = None
     assert node.executor is None
     other.shutdown()
 
@@ -699,7 +702,7 @@ def test_shutdown_in_a_callback_ends_spin(node, any_executor):
     node.create_guard_condition(shut_down).trigger()
     any_executor.spin()
     assert ended.wait(60)
-    assert node.executor is None
+    assert any_executor.get_nodes() == []
 
 
 def test_shutting_the_context_down_ends_spin(later, context, executor):

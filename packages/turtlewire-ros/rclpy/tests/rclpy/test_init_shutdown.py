@@ -236,7 +236,9 @@ def test_spin_once_and_spin_until_future_complete():
     node.create_guard_condition(lambda: future.set_result(5)).trigger()
     rclpy.spin_once(node, timeout_sec=60)
     assert future.result() == 5
-    assert node.executor is None
+    task = node.executor.create_task(lambda: 6)
+    rclpy.spin_once(node, timeout_sec=60)
+    assert task.result() == 6
     rclpy.spin_until_future_complete(node, future, timeout_sec=60)
 
 

@@ -94,10 +94,10 @@ def test_the_parts_of_the_error():
 @pytest.mark.parametrize(
     ("names", "text"),
     [
-        (("a b", "node", "/ns"), "topic name is invalid"),
-        (("a/{what}", "node", "/ns"), "topic name is invalid"),
-        (("a", "no de", "/ns"), "node name is invalid"),
-        (("a", "node", "ns"), "node namespace is invalid"),
+        (("a b", "node", "/ns"), "topic name 'a b' is invalid"),
+        (("a/{what}", "node", "/ns"), "topic name 'a/{what}' is invalid"),
+        (("a", "no de", "/ns"), "node name 'no de' is invalid"),
+        (("a", "node", "ns"), "node namespace 'ns' is invalid"),
     ],
 )
 def test_bad_expansions(names, text):

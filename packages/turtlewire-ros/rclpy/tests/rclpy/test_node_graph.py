@@ -103,8 +103,9 @@ def test_by_node(node, other, wait_for):
 @pytest.mark.parametrize("kind", ["publisher", "subscriber", "service", "client"])
 def test_a_node_that_is_not_there(node, kind):
     query = getattr(node, f"get_{kind}_names_and_types_by_node")
-    with pytest.raises(NodeNameNonExistentError, match="nonexistent node: /nobody"):
+    with pytest.raises(NodeNameNonExistentError, match="for nonexistent node") as raised:
         query("nobody", "/")
+    assert "No node /nobody is known" in str(raised.value.hint)
 
 
 def test_counts(node, other, wait_for):

@@ -104,7 +104,8 @@ def test_several_declarations_with_a_namespace(parameters):
 def test_a_type_alone_has_to_be_set_before_it_is_read(parameters):
     assert parameters.declare_parameter("a", Type.DOUBLE).type_ is Type.NOT_SET
     with pytest.raises(
-        exceptions.ParameterUninitializedException, match=r"^The parameter is not initialized: a$"
+        exceptions.ParameterUninitializedException,
+        match=r"^The parameter 'a' is not initialized: a$",
     ):
         parameters.get_parameter("a")
     assert parameters.get_parameter_or("a", Parameter("a", value=7)).value == 7
@@ -210,7 +211,7 @@ def test_an_override_of_another_type():
         parameters.declare_parameter("a", "turtle1")
     assert (
         str(caught.value)
-        == "Trying to set parameter 'a' to '2' of type 'INTEGER', expecting type 'STRING'"
+        == "Trying to set parameter 'a' to '2' of type 'INTEGER', expecting type 'STRING': a"
     )
     assert caught.value.hint == "YAML reads a string in quotes: -p a:='\"2\"'"
     with pytest.raises(exceptions.InvalidParameterTypeException) as caught:
@@ -393,15 +394,15 @@ def test_steps_count_from_the_start_of_a_range_and_its_end_is_always_valid(
         (1.0, ""),
         (1.0000001, ""),
         (0.1 + 0.2, ""),
-        (1.1, "Parameter a out of range. Min: 0.0, Max: 1.0, value: 1.1"),
+        (1.1, "Parameter a out of range Min: 0.0, Max: 1.0, value: 1.1"),
         (
             0.25,
             (
-                "The parameter value for a is not a valid step. Min: 0.0, max: 1.0, value: 0.25, "
+                "The parameter value for a is not close enough to a valid step. Min: 0.0, max: 1.0, value: 0.25, "
                 "step: 0.1"
             ),
         ),
-        (float("nan"), "Parameter a out of range. Min: 0.0, Max: 1.0, value: nan"),
+        (float("nan"), "Parameter a out of range Min: 0.0, Max: 1.0, value: nan"),
     ],
 )
 def test_ranges_of_doubles(parameters, value, text):

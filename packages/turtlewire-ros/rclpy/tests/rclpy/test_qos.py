@@ -32,7 +32,7 @@ S, R, B = (
 
 
 def profile(**changes):
-    return QoSProfile(**{"depth": 10, **changes})
+    return QoSProfile(**{"depth": 10, "liveliness": LivelinessPolicy.AUTOMATIC, **changes})
 
 
 @pytest.mark.parametrize(
@@ -192,15 +192,55 @@ def test_text():
             {"reliability": S},
             {},
             "WARNING",
-            "WARNING: Reliable subscription, but publisher is system default;",
+            "WARNING: Reliable subscription, but publisher is system_default;",
         ),
         (
             {"reliability": B},
             {"reliability": S},
             "WARNING",
-            "WARNING: Best effort publisher, but subscription is system default;",
+            "WARNING: Best effort publisher, but subscription is system_default;",
         ),
         ({"reliability": S}, {"reliability": B}, "OK", ""),
+        # The answers of Jazzy's and of Kilted's own function.
+        (
+            {},
+            {"deadline": Infinite},
+            "ERROR",
+            "ERROR: Subscription has a deadline, but publisher does not;",
+        ),
+        (
+            {"liveliness_lease_duration": Infinite},
+            {"liveliness_lease_duration": Duration(nanoseconds=1)},
+            "ERROR",
+            "ERROR: Subscription liveliness lease duration is less than publisher;",
+        ),
+        (
+            {"durability": DurabilityPolicy.UNKNOWN},
+            {"durability": DurabilityPolicy.TRANSIENT_LOCAL},
+            "WARNING",
+            "WARNING: Transient local subscription, but publisher is unknown;",
+        ),
+        (
+            {},
+            {"durability": DurabilityPolicy.SYSTEM_DEFAULT},
+            "WARNING",
+            "WARNING: Volatile publisher, but subscription is system_default;",
+        ),
+        (
+            {"liveliness": LivelinessPolicy.SYSTEM_DEFAULT},
+            {"liveliness": LivelinessPolicy.MANUAL_BY_TOPIC},
+            "WARNING",
+            (
+                "WARNING: Subscription's liveliness is manual by topic, but publisher's is "
+                "system_default;"
+            ),
+        ),
+        (
+            {},
+            {"liveliness": LivelinessPolicy.UNKNOWN},
+            "WARNING",
+            "WARNING: Publisher's liveliness is automatic, but subscription's is unknown;",
+        ),
     ],
 )
 @needs_cyclone_dds
@@ -231,9 +271,11 @@ def test_two_system_defaults_are_left_open(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
     level, reason = qos_check_compatible(qos_profile_system_default, qos_profile_system_default)
     assert level is QoSCompatibility.WARNING
-    assert reason.startswith(
-        "WARNING: Publisher reliability is system default and subscription reliability is system "
-        "default;"
+    assert reason == (
+        "WARNING: Publisher reliability is system_default and subscription reliability is "
+        "system_default;WARNING: Publisher durabilty is system_default and subscription durability "
+        "is system_default;WARNING: Publisher liveliness is system_default and subscription "
+        "liveliness is system_default;"
     )
 
 

@@ -27,9 +27,7 @@ def main(args: argparse.Namespace) -> None:
         values = remote.values(names)
     tree: dict[str, Any] = {}
     for name, message in zip(names, values, strict=True):
-        insert(
-            tree, name.split(PARAMETER_SEPARATOR_STRING), _plain(parameter_value_to_python(message))
-        )
+        insert(tree, name.split(PARAMETER_SEPARATOR_STRING), parameter_value_to_python(message))
     file = {remote.node_name: {"ros__parameters": tree}}
     if args.json:
         print_json(file)
@@ -42,10 +40,6 @@ def insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
     for part in path[:-1]:
         tree = tree.setdefault(part, {})
     tree[path[-1]] = value
-
-
-def _plain(value: Any) -> Any:
-    return list(value) if hasattr(value, "typecode") else value
 
 
 class DumpVerb(VerbExtension, module=__name__):

@@ -125,10 +125,9 @@ def _text(message: Any, args: argparse.Namespace, *, below: bool = False) -> str
     from rclpy.parameter import parameter_value_to_python
 
     value: Any = parameter_value_to_python(message)
-    shown = list(value) if hasattr(value, "typecode") else value
     if args.hide_type:
-        return f" {shown}" if below else str(shown)
-    text = f"{_LABELS[message.type]} {shown}"
+        return f" {value}" if below else str(value)
+    text = f"{_LABELS[message.type]} {value}"
     return f"\n  {text}" if below else text
 
 

@@ -113,7 +113,7 @@ def validate_full_topic_name(name: str) -> NameFault | None:
     """Check a fully qualified topic or service name (``/turtle1/pose``)."""
     return _check_absolute(
         name, "topic name", "topic name must not end with a '/'"
-    ) or _check_length(name, "topic length", _TOPIC_MAX)
+    ) or _check_length(name, "topic length should not exceed '255U - 8U'", _TOPIC_MAX)
 
 
 def validate_namespace(namespace: str) -> NameFault | None:
@@ -123,7 +123,8 @@ def validate_namespace(namespace: str) -> NameFault | None:
     fault = _check_absolute(
         namespace, "namespace", "namespace must not end with a '/', unless only a '/'"
     )
-    return fault or _check_length(namespace, "namespace", _NAMESPACE_MAX)
+    text = "namespace should not exceed 'RMW_NAMESPACE_MAX_NAME_LENGTH'"
+    return fault or _check_length(namespace, text, _NAMESPACE_MAX)
 
 
 def validate_node_name(name: str) -> NameFault | None:
@@ -137,7 +138,7 @@ def validate_node_name(name: str) -> NameFault | None:
         )
     if _is_digit(name[0]):
         return NameFault("node name must not start with a number", 0)
-    return _check_length(name, "node name length", _NODE_MAX)
+    return _check_length(name, f"node name length should not exceed '{_NODE_MAX}'", _NODE_MAX)
 
 
 def _check_absolute(name: str, what: str, ends_with_slash: str) -> NameFault | None:
@@ -163,10 +164,9 @@ def _check_absolute(name: str, what: str, ends_with_slash: str) -> NameFault | N
     return None
 
 
-def _check_length(name: str, what: str, limit: int) -> NameFault | None:
-    return (
-        NameFault(f"{what} should not exceed '{limit}'", limit - 1) if len(name) > limit else None
-    )
+def _check_length(name: str, text: str, limit: int) -> NameFault | None:
+    """Compare with a limit; ROS 2's ``text`` may name a macro of C instead of the number."""
+    return NameFault(text, limit - 1) if len(name) > limit else None
 
 
 def _is_digit(char: str) -> bool:
