@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from enum import Enum
+from enum import IntEnum
 from typing import TYPE_CHECKING, Any
+
+from turtlewire.distro import KILTED, since
 
 if TYPE_CHECKING:
     import rcl_interfaces.msg
@@ -30,8 +32,11 @@ class Parameter:
         ValueError: Type and value do not agree.
     """
 
-    class Type(Enum):
-        """The types, with the numbers of ``rcl_interfaces/msg/ParameterType``."""
+    class Type(IntEnum):
+        """The types, with the numbers of ``rcl_interfaces/msg/ParameterType``.
+
+        In texts, Jazzy has the name and later distributions have the number.
+        """
 
         NOT_SET = 0
         BOOL = 1
@@ -43,6 +48,12 @@ class Parameter:
         INTEGER_ARRAY = 7
         DOUBLE_ARRAY = 8
         STRING_ARRAY = 9
+
+        def __str__(self) -> str:
+            return str(self.value) if since(KILTED) else f"Type.{self.name}"
+
+        def __format__(self, format_spec: str) -> str:
+            return format(str(self), format_spec)
 
         @classmethod
         def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
+from rclpy.expand_topic_name import expand_topic_name
 from rclpy.impl.hints import described, with_hint
 from rclpy.qos import QoSProfile
 from turtlewire.errors import WireError
@@ -109,7 +110,7 @@ class NameResolver:
         fault = names.validate_topic_name(name)
         if fault is not None:
             raise error(name, fault.message, fault.invalid_index)
-        expanded = names.expand_topic_name(name, self._core.name, self._core.namespace)
+        expanded = expand_topic_name(name, self._core.name, self._core.namespace)
         # Substitutions can make a valid name invalid; the error then shows the expanded name.
         fault = names.validate_full_topic_name(expanded)
         if fault is not None:

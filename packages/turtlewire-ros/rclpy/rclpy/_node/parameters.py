@@ -283,10 +283,6 @@ class NodeParameters(DeclaredParameters):
         return descriptor
 
 
-#: ROS 2's text.
-_NO_DECISION = "Callback returned an invalid type, it should return SetParameterResult."
-
-
 class _ParameterCallbacks:
     """Three lists of callbacks, each called newest first.
 
@@ -320,8 +316,13 @@ class _ParameterCallbacks:
         for callback in list(self.deciding):
             result = callback(parameters)
             if not isinstance(result, SetParametersResult):
-                warnings.warn(f"{_NO_DECISION} {callback!r} returned {result!r}", stacklevel=2)
-                return _NO_DECISION
+                text = "Callback returned an invalid type"
+                warnings.warn(
+                    f"{text}, it should return SetParameterResult. {callback!r} returned "
+                    f"{result!r}",
+                    stacklevel=2,
+                )
+                return text
             if not result.successful:
                 return result.reason or "rejected by a callback that gave no reason"
         return ""
