@@ -43,7 +43,8 @@ def in_open_context(context: Context, what: str) -> Iterator[None]:
     Raises:
         RCLError: The context is shut down, possibly by another thread during the block.
     """
-    closed = RCLError(f"could not create {what}: {_INVALID}")
+    failed = "Failed" if what in {"publisher", "subscription"} else "failed"  # as in ROS 2
+    closed = RCLError(f"{failed} to create {what}: {_INVALID}")
     if not context.is_open():
         raise closed
     try:

@@ -119,7 +119,7 @@ class OwnEndpoints:
         else:
             check_is_valid_srv_type(interface)
             name, types = self.names.resolve_service(name), service_types(type_name(interface))
-        with in_open_context(self._core.context, kind):
+        with in_open_context(self._core.checked().context, kind):
             create = getattr(self._core.wire, f"create_{kind}")
             return EndpointImpl(create(name, types, profile.to_wire(), **options), self._core)
 

@@ -294,7 +294,9 @@ def test_concurrent_shutdown_creates_nothing(monkeypatch, middleware, what):
         return create(*arguments, **options)
 
     monkeypatch.setattr(wire, f"create_{what}", shut_down_and_create)
-    with pytest.raises(RCLError, match=f"could not create {what}: rcl node's context is invalid"):
+    with pytest.raises(
+        RCLError, match=f"(?i)failed to create {what}: rcl node's context is invalid"
+    ):
         CREATORS[what](node)
     node.destroy_node()
 
@@ -308,7 +310,7 @@ def test_after_shutdown_nothing_more_is_created_or_called(monkeypatch, middlewar
     rclpy.shutdown()
     for what, create in CREATORS.items():
         with pytest.raises(
-            RCLError, match=f"could not create {what}: rcl node's context is invalid"
+            RCLError, match=f"(?i)failed to create {what}: rcl node's context is invalid"
         ):
             create(node)
     with pytest.raises(RCLError, match="failed to send request"):
