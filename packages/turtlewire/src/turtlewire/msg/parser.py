@@ -54,6 +54,7 @@ _BASIC_TYPES = {
 _TAKEN_NAMES = ("SLOT_TYPES", "get_fields_and_field_types")
 
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "0": "\0", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
+_ESCAPES |= {character: character for character in "\"'\\"}
 
 
 def parse_message(full_name: str, text: str, *, strict: bool = True) -> MessageDefinition:
@@ -307,7 +308,8 @@ def _parse_basic_value(typename: str, text: str) -> Any:
         return text.lower() in ("true", "1")
     if typename in ("float", "double"):
         return float(text)
-    number = int(text, 0)
+    # As in ROS 2, 010 is ten.
+    number = int(text) if text.lstrip("+-").isdecimal() else int(text, 0)
     low, high = INTEGER_RANGES.get(typename, (0, 255))
     if not low <= number <= high:
         raise ValueError(f"{number} is outside of {typename} ({low} to {high})")
@@ -339,7 +341,7 @@ def _unquote(text: str) -> str:
     for character in characters:
         if character == "\\":
             escaped = next(characters, "\\")
-            out.append(_ESCAPES.get(escaped, escaped))
+            out.append(_ESCAPES.get(escaped, f"\\{escaped}"))  # "C:\\dir" has no escape
         else:
             out.append(character)
     return "".join(out)
