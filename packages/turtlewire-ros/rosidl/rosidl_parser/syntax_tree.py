@@ -17,14 +17,13 @@ from turtlewire.msg.types import (
     AbstractType,
     Array,
     BasicType,
-    BoundedSequence,
     BoundedString,
     BoundedWString,
     NamedType,
     NamespacedType,
-    UnboundedSequence,
     UnboundedString,
     UnboundedWString,
+    sequence_of,
 )
 
 if TYPE_CHECKING:
@@ -270,7 +269,7 @@ def get_abstract_type(tree: Tree[Any]) -> AbstractType:
         return BoundedWString(*sizes) if sizes else UnboundedWString()
     if tree.data == "sequence_type":
         inner = get_abstract_type(tree.children[0])
-        return BoundedSequence(inner, *sizes) if sizes else UnboundedSequence(inner)
+        return sequence_of(inner, sizes[0] if sizes else None)
     raise ValueError(f"'{tree.data}' is not a type")
 
 

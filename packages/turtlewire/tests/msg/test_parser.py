@@ -48,6 +48,9 @@ def _field(line, name="X"):
         ("int32[5]", Array(BasicType("int32"), 5)),
         ("int32[<=5]", BoundedSequence(BasicType("int32"), 5)),
         ("string<=4[<=3]", BoundedSequence(BoundedString(4), 3)),
+        ("string<=4[]", UnboundedSequence(BoundedString(4))),
+        ("wstring<=4[<=3]", BoundedSequence(BoundedWString(4), 3)),
+        ("wstring<=4[]", BoundedSequence(BoundedWString(4), 4)),  # as in ROS 2
         ("Sphere", NamespacedType(("demo_interfaces", "msg"), "Sphere")),
         ("geometry_msgs/Point[2]", Array(NamespacedType(("geometry_msgs", "msg"), "Point"), 2)),
         ("geometry_msgs/msg/Point", NamespacedType(("geometry_msgs", "msg"), "Point")),

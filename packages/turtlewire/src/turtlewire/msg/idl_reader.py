@@ -15,14 +15,13 @@ from turtlewire.msg.types import (
     AbstractType,
     Array,
     BasicType,
-    BoundedSequence,
     BoundedString,
     BoundedWString,
     NamedType,
     NamespacedType,
-    UnboundedSequence,
     UnboundedString,
     UnboundedWString,
+    sequence_of,
 )
 
 _TOKEN = re.compile(
@@ -265,7 +264,7 @@ class IdlReader(_IdlTokens):
 
     def sequence(self, inner: AbstractType, size: int | None, line: int) -> AbstractType:  # noqa: ARG002
         """Return the type of a sequence."""
-        return UnboundedSequence(inner) if size is None else BoundedSequence(inner, size)
+        return sequence_of(inner, size)
 
     def named_type(self, name: str, line: int) -> AbstractType:  # noqa: ARG002
         """Return the type of a name that is not a basic type."""

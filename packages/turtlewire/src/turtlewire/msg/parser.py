@@ -27,13 +27,12 @@ from turtlewire.msg.types import (
     AbstractWString,
     Array,
     BasicType,
-    BoundedSequence,
     BoundedString,
     BoundedWString,
     NamespacedType,
-    UnboundedSequence,
     UnboundedString,
     UnboundedWString,
+    sequence_of,
 )
 
 _SEPARATOR = "---"
@@ -240,9 +239,9 @@ def parse_type(package: str, text: str, *, strict: bool = True) -> AbstractType:
     base, _, size = text[:-1].rpartition("[")
     value_type = _parse_value_type(package, base, strict)
     if not size:
-        return UnboundedSequence(value_type)
+        return sequence_of(value_type, None)
     if size.startswith("<="):
-        return BoundedSequence(value_type, _parse_size(size[2:]))
+        return sequence_of(value_type, _parse_size(size[2:]))
     return Array(value_type, _parse_size(size))
 
 

@@ -263,6 +263,21 @@ class UnboundedSequence(AbstractSequence):
         return f"sequence<{self.value_type}>"
 
 
+def sequence_of(value_type: AbstractType, maximum_size: int | None) -> AbstractSequence:
+    """Return the type of a sequence, as ROS 2's IDL parser makes it.
+
+    Args:
+        value_type: The type of the values.
+        maximum_size: None for a sequence without a bound. That parser takes the bound of wide
+            strings for the sequence's, too, and type hashes depend on it.
+    """
+    if maximum_size is None and isinstance(value_type, BoundedWString):
+        maximum_size = value_type.maximum_size
+    if maximum_size is None:
+        return UnboundedSequence(value_type)
+    return BoundedSequence(value_type, maximum_size)
+
+
 def type_in_msg_file(type_: AbstractType) -> str:
     """Return a type as .msg files spell it, for example ``float64[<=3]``."""
     if isinstance(type_, AbstractNestedType):
