@@ -44,8 +44,9 @@ if TYPE_CHECKING:
     from .reader import CycloneReaderThread
     from .subscription import CycloneSubscription
 
-#: How long a response waits for the client's end of the reply topic to be discovered.
-_PATIENCE_NS = 1_000_000_000
+#: How long a response waits until the client's end of the reply topic is discovered, which takes
+#: seconds on a busy machine.
+_PATIENCE_NS = 10_000_000_000
 _KNOWN_CLIENTS = 1000
 #: The bit of the last byte of a GUID that distinguishes readers from writers.
 _READER = 4
