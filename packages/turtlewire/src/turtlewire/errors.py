@@ -286,6 +286,8 @@ class LookupException(TransformException):
             counts, last = refused[frame]
             text = " ".join(last.split())
             return f"Refused transforms of '{frame}': {sum(counts.values()):,}; the last: {text}"
+        if frame in names:
+            return f"'{frame}' arrived just after this lookup; a timeout waits for it."
         # 'turtle1' and 'turtle2' are different turtles; one may not have been spawned yet.
         others = [name for name in names if name.strip(digits) != frame.strip(digits)]
         near = difflib.get_close_matches(frame, others, 3, 0.5)

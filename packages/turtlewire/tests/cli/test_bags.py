@@ -237,6 +237,10 @@ def test_remarks_about_a_file_are_lines_below_each_other(capsys, tmp_path):
         ("compare BAG:odom:camera BAG:odom:camera --plane ab", "ab"),
         ("doctor --topic /r1/tf --topic /r2/tf", "--topic and --static-topic may be repeated"),
         ("trajectory BAG /odom --topic /r1/tf", "need two frames"),
+        ("trajectory BAG /odom --rate 10", "--rate needs two frames"),
+        ("trajectory BAG odom camera --format kitti", "--format needs --output"),
+        ("trajectory BAG odom camera --kind speeds", "--kind needs --plot"),
+        ("compare BAG:odom:camera BAG:odom:camera --kind box", "--kind needs --plot"),
     ],
 )
 def test_mistakes(capsys, bag, words, text):
@@ -245,6 +249,15 @@ def test_mistakes(capsys, bag, words, text):
     assert text.replace("BAG", str(bag)) in done.err
     assert "Traceback" not in done.err
     assert not done.out
+
+
+def test_commands_in_errors_can_be_typed(capsys, bag, tmp_path):
+    path = shutil.copytree(bag, tmp_path / "my bag")
+    tf = f"turtlewire bag tf '{path}'`"
+    assert tf in run(capsys, "trajectory", path).err
+    err = run(capsys, "trajectory", path, "base_link", "camera").err
+    assert tf in err
+    assert f"turtlewire compare OTHER '{path}:base_link:camera'`" in err
 
 
 def test_poses_without_a_partner_are_counted(capsys, bag, tmp_path):

@@ -245,6 +245,15 @@ def test_a_frame_whose_transforms_were_refused() -> None:
     assert hint_of(buffer.lookup_transform, "map", "leg") == "The frames are 'base', 'map'."
 
 
+def test_a_frame_that_arrives_before_the_hint_is_read() -> None:
+    buffer = turtlewire.Buffer()
+    buffer.set_static_transform("map", "base", NO_MOVE)
+    with pytest.raises(errors.LookupException) as caught:
+        buffer.lookup_transform("map", "leg")
+    buffer.set_static_transform("base", "leg", NO_MOVE)
+    assert caught.value.hint == "'leg' arrived just after this lookup; a timeout waits for it."
+
+
 def test_an_empty_buffer() -> None:
     buffer = turtlewire.Buffer()
     assert hint_of(buffer.lookup_transform, "map", "base") == "No transform was set yet."

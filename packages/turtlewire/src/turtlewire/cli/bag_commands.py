@@ -99,7 +99,7 @@ def _add_trajectory(commands: Any) -> None:
     _add_plot(parser, ("path", "positions", "angles", "speeds"), "path")
     parser.add_argument("--json", action="store_true", help="Print one JSON object")
     run = reporting_errors("trajectory", _trajectory)
-    parser.set_defaults(run=run, parser=parser, kind="path")
+    parser.set_defaults(run=run, parser=parser)
 
 
 def _add_compare(commands: Any) -> None:
@@ -238,10 +238,21 @@ def _trajectory(args: argparse.Namespace) -> int:
         args.parser.error(f"expected a topic or two frames, got {len(args.names)} names")
     if (args.topic or args.static_topic) and len(args.names) != 2:
         args.parser.error("--topic and --static-topic need two frames")
+    if args.rate is not None and len(args.names) != 2:
+        args.parser.error("--rate needs two frames; other poses are not interpolated")
+    if args.format and not args.output:
+        args.parser.error("--format needs --output")
+    _check_kind(args)
     return run_trajectory(args)
 
 
 def _compare(args: argparse.Namespace) -> int:
     from turtlewire.cli.compare_command import run_compare
 
+    _check_kind(args)
     return run_compare(args)
+
+
+def _check_kind(args: argparse.Namespace) -> None:
+    if args.kind and not args.plot:
+        args.parser.error("--kind needs --plot")

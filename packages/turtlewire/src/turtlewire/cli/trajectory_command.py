@@ -42,7 +42,7 @@ def run_trajectory(args: argparse.Namespace) -> int:
         if kind == "kitti":
             written.append(f"{kitti_times(args.output)} (the times)")
     if args.plot:
-        trajectory.plot(args.kind).save(args.plot)
+        trajectory.plot(args.kind or "path").save(args.plot)
         written.append(args.plot)
     if args.json:
         print(json.dumps(_figures(source, trajectory) | {"written": written}))

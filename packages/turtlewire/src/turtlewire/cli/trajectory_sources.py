@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 import warnings
 from collections.abc import Iterator
@@ -140,8 +141,9 @@ def _nothing_moves(source: TrajectorySource) -> str:
     target, moved = source.names
     return (
         f"nothing moves between '{target}' and '{moved}', so there is no path to follow: "
-        f"`turtlewire bag tf {source.path}` shows which frames have a rate. To look the pose up at "
-        f"the times of another trajectory, type `turtlewire compare OTHER {source}`"
+        f"`turtlewire bag tf {shlex.quote(source.path)}` shows which frames have a rate. To look the "
+        f"pose up at the times of another trajectory, type "
+        f"`turtlewire compare OTHER {shlex.quote(str(source))}`"
     )
 
 
@@ -154,7 +156,7 @@ def _names_are_missing(path: str) -> str:
     has = f"topics with poses: {', '.join(topics)}" if topics else "no topic with poses"
     return (
         f"{path} is a bag: name a topic, or a target and a source frame. It has {has}; "
-        f"`turtlewire bag tf {path}` shows its frames"
+        f"`turtlewire bag tf {shlex.quote(path)}` shows its frames"
     )
 
 

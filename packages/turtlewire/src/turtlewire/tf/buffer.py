@@ -217,10 +217,12 @@ class Buffer(BaseBuffer):
         Memory and time stay in proportion to the size of the file, whatever it contains.
 
         Raises:
+            FileNotFoundError: Nothing is at ``path``.
             IsADirectoryError: ``path`` is a folder, for example a bag.
             TypeError: ``path`` is not a path.
             ValueError: The file is something else, or damaged.
         """
+        from turtlewire.path_arguments import missing_file
         from turtlewire.tf.archive import read
 
         if not isinstance(path, (str, bytes, os.PathLike)):  # an int would be a file descriptor
@@ -229,6 +231,8 @@ class Buffer(BaseBuffer):
         if os.path.isdir(path):
             text = "a saved buffer is a file; to read a bag, call Buffer.from_bag"
             raise IsADirectoryError(errno.EISDIR, text, os.fspath(path))
+        if not os.path.exists(path):
+            raise missing_file(os.fsdecode(path))
         with open(path, "rb") as file:
             return read(file, os.fspath(path), cls)
 
