@@ -1,4 +1,4 @@
-"""`ros2 run tf2_ros tf2_echo SOURCE TARGET [RATE]`: prints the pose of a frame repeatedly."""
+"""`ros2 run tf2_ros tf2_echo SOURCE TARGET`: prints the pose of a frame repeatedly."""
 
 from __future__ import annotations
 
@@ -27,30 +27,39 @@ if TYPE_CHECKING:
 
     from geometry_msgs.msg import TransformStamped
 
-_BAD_RATE = "Failed to convert rate argument '%s' to a floating-point number"
+#: The first second that a stamp of ROS 2 cannot hold.
+_TOO_LATE_S = 2.0**31
+_BAD_NUMBER = "Failed to convert %s argument '%s' to a floating-point number"
 
 
 def main(args: list[str] | None = None) -> int:
     """Print until stopped.
 
     Returns:
-        The exit status: 1 for a wrong command line, 2 for a rate that is not a number, 3 for a
-        rate that is not positive.
+        The exit status: 1 for a wrong command line, 2 for a rate that is not a number or, with
+        ``-r``, not positive, 3 for a positional rate that is not positive, and for a time that is
+        not a number.
     """
     argv = sys.argv if args is None else args
     options = _parser().parse_args(remove_ros_args(argv)[1:])
-    try:
-        rate = float(options.rate)
-    except ValueError:
-        print(_BAD_RATE % options.rate, file=sys.stderr)  # noqa: T201
-        return 2
-    if not 0.0 < rate < math.inf:
-        print(f"Echo rate must be > 0.0, got '{options.rate}'", file=sys.stderr)  # noqa: T201
-        return 3
+    asked_rate = options.rate if options.echo_rate is None else options.echo_rate
+    rate, time = _number(asked_rate), _number(options.time)
+    status, fault = 0, ""
+    if math.isnan(rate):
+        status, fault = 2, _BAD_NUMBER % ("rate", asked_rate)
+    elif not 0.0 < rate < math.inf and options.echo_rate is None:
+        status, fault = 2, "Rate must be positive"
+    elif not 0.0 < rate < math.inf:
+        status, fault = 3, f"Echo rate must be > 0.0, got '{asked_rate}'"
+    elif not 0.0 <= time < _TOO_LATE_S:
+        status, fault = 3, _BAD_NUMBER % ("time", options.time)
+    if fault:
+        print(fault, file=sys.stderr)  # noqa: T201
+        return status
     rclpy.init(args=argv)
     try:
         with Node("tf2_echo") as node:
-            _echo(node, options, 1.0 / rate)
+            _echo(node, options, 1.0 / rate, Time(seconds=time))
     except KeyboardInterrupt:
         pass
     finally:
@@ -67,8 +76,13 @@ def _parser() -> argparse.ArgumentParser:
         "source_frame", type=frame_id, help="the frame that the pose is expressed in"
     )
     parser.add_argument("target_frame", type=frame_id, help="the frame whose pose is printed")
+    # The releases of Jazzy replaced this by the option; both work here.
+    parser.add_argument("echo_rate", nargs="?", metavar="rate", help="the same as --rate")
     parser.add_argument(
-        "rate", nargs="?", default="1.0", help="how often, per second (default: %(default)s)"
+        "-r", "--rate", default="1.0", help="how often, per second (default: %(default)s)"
+    )
+    parser.add_argument(
+        "-t", "--time", default="0", help="look up at this time, in seconds (default: the latest)"
     )
     parser.add_argument(
         "-p",
@@ -88,7 +102,14 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def _echo(node: Node, options: argparse.Namespace, period_s: float, time: Time) -> None:
     buffer, stopped = Buffer(node=node), threading.Event()
     rclpy.get_default_context().on_shutdown(stopped.set)
     TransformListener(buffer, node, spin_thread=True)  # a simulated clock needs the spinning
@@ -110,7 +131,7 @@ def _echo(node: Node, options: argparse.Namespace, period_s: float) -> None:
         node.get_logger().info(f"Waiting for transform {source} ->  {target}: {why}")
     while not stopped.is_set():
         try:
-            transform = buffer.lookup_transform(source, target, Time())
+            transform = buffer.lookup_transform(source, target, time)
         except TransformException as error:
             text = _failure(node.get_clock().now().nanoseconds, error, buffer)
             print(printable_lines(text), flush=True)  # noqa: T201

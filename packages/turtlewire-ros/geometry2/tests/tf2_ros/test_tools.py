@@ -279,6 +279,16 @@ def test_echo_as_json(tool):
     assert (data["source_frame"], data["target_frame"]) == ("world", "robot")
 
 
+@pytest.mark.usefixtures("talker")
+def test_echo_takes_rate_and_time_as_options(tool):
+    words = ("-r", "50", "--time", str(2**31 - 1))
+    process = tool("tf2_echo", "world", "robot", *words)
+    text = "Lookup would require extrapolation into the future.  Requested time 2147483647.000000"
+    for _ in range(3):
+        read_until(process, f"Exception thrown:{text}")
+    assert stop(process)[0] == 0
+
+
 def test_echo_says_what_it_waits_for(tool):
     process = tool("tf2_echo", "world", "nothing")
     line = process.stderr.readline()
@@ -300,6 +310,14 @@ def test_echo_says_what_it_waits_for(tool):
             "Failed to convert rate argument 'fast' to a floating-point number",
         ),
         ("world robot 0", 3, "must be > 0.0"),
+        (
+            "world robot -r fast",
+            2,
+            "Failed to convert rate argument 'fast' to a floating-point number",
+        ),
+        ("world robot -r 0", 2, "Rate must be positive"),
+        ("world robot -t now", 3, "time argument 'now' to a floating-point number"),
+        ("world robot -t 1e10", 3, "time argument '1e10' to a floating-point number"),
         (
             "/world robot",
             1,
