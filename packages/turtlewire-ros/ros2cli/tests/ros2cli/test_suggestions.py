@@ -224,6 +224,18 @@ def test_an_interface_package_that_is_cloned(capsys, tmp_path, monkeypatch):
     )
 
 
+def test_an_interface_without_a_module(capsys, tmp_path, monkeypatch):
+    index = tmp_path / "share/ament_index/resource_index/rosidl_interfaces/only_defined"
+    definition = tmp_path / "share/only_defined/srv/Ask.srv"
+    for file, text in ((index, "srv/Ask.srv\n"), (definition, "---\n")):
+        file.parent.mkdir(parents=True)
+        file.write_text(text)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    told, hint = errors(capsys, "service", "call", "/x", "only_defined/srv/Ask")
+    assert told == "The passed service type is invalid"
+    assert hint.startswith("only_defined/srv/Ask is defined, but Python cannot import only_defined")
+
+
 @pytest.mark.usefixtures("pose_publisher")
 def test_types_to_find(capsys):
     def told(*words):
