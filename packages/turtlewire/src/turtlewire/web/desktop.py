@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 
-#: The preferred port; TURTLEWIRE_PORT sets another one. The next free one is taken when it is in
+#: The preferred port; TURTLEWIRE_PORT sets another one. Another free one is taken when it is in
 #: use.
 DEFAULT_PORT = 7070
 
