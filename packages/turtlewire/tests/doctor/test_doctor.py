@@ -72,6 +72,23 @@ def test_an_empty_domain(context):
     assert "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET" in finding.remedy
 
 
+def test_an_empty_domain_in_the_range_off(context, monkeypatch):
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
+    (finding,) = graph_findings(context.graph)
+    assert finding.text == "The discovery range is OFF: no nodes of other processes are found."
+    assert "unset ROS_AUTOMATIC_DISCOVERY_RANGE" in finding.remedy
+
+
+@pytest.mark.parametrize(
+    ("asked", "remedy"), [("python", "unset TURTLEWIRE_CORE"), ("", "Install g++")]
+)
+def test_what_helps_with_the_plain_core(monkeypatch, asked, remedy):
+    monkeypatch.setattr("turtlewire.tf.buffer.CORE", "python")
+    findings = setup_findings({"TURTLEWIRE_CORE": asked}, [])
+    (found,) = (each for each in findings if "plain-Python core" in each.text)
+    assert remedy in found.remedy
+
+
 def test_a_sound_graph_has_no_findings(context):
     context.create_node("talker").create_publisher("/chatter", STRING, QoS())
     context.create_node("listener").create_subscription("/chatter", STRING, QoS())

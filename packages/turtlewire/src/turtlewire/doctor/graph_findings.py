@@ -12,7 +12,7 @@ from turtlewire.doctor.finding import Finding, note, problem
 from turtlewire.doctor.network import named_domains, other_domains
 from turtlewire.doctor.setup_findings import looks_for_others, only_this_host
 from turtlewire.wire.conflicts import obstacles
-from turtlewire.wire.environment import discovery, domain_id
+from turtlewire.wire.environment import Range, discovery, domain_id
 from turtlewire.wire.names import fully_qualified_node_name, is_hidden
 from turtlewire.wire.services import ONE_MIDDLEWARE, advice
 from turtlewire.wording import counted
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 _RENAME = "Rename all but one: --ros-args -r __node:=NAME"
 _ONE_TYPE = "Messages pass only between endpoints of one type: remap one of the topics."
 _ONE_QOS = "Give both the same QoS profile, or the subscription the weaker one."
+
+_RANGE_OFF = "The discovery range is OFF: no nodes of other processes are found."
+_WIDEN_RANGE = "For nodes on this host, unset ROS_AUTOMATIC_DISCOVERY_RANGE; on others, set SUBNET."
 
 
 def graph_findings(graph: Graph, *, explained: bool = False) -> list[Finding]:
@@ -88,6 +91,8 @@ def owner_of(endpoint: EndpointInfo | ForeignServer) -> str:
 
 
 def _no_nodes() -> Finding:
+    if discovery().range == Range.OFF:
+        return note(_RANGE_OFF, _WIDEN_RANGE)
     domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     reach = "this host" if only_this_host() else "this network"
     remedy = ["Start a node."]
