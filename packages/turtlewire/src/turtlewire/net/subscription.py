@@ -46,7 +46,8 @@ class Subscription(Generic[MessageT]):
 
     Attributes:
         topic: Its fully qualified name.
-        dropped: How many messages were dropped before they were read.
+        dropped: How many received messages were dropped before they were read. In a burst, the
+            middleware may drop others before this object receives them.
     """
 
     def __init__(
