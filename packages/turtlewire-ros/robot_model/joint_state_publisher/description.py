@@ -80,6 +80,7 @@ def read_joints(text: str, options: JointOptions, warn: Callable[[str], None]) -
 def _add_urdf_joint(joints: JointSet, element: Element, options: JointOptions) -> None:
     name = element.get("name", "")
     joints.order.append(name)
+    joints.kinds[name] = element.get("type", "")
     mimics = element.findall("mimic")
     # As in ROS 2, several `mimic` elements count as none.
     if options.use_mimic_tags and len(mimics) == 1:
@@ -180,6 +181,7 @@ def _read_sdf(root: Element, options: JointOptions) -> JointSet:
             continue
         name = element.get("name", "")
         joints.order.append(name)
+        joints.kinds[name] = kind
         if name in options.mimics:
             joints.mimics[name] = options.mimics[name]
             continue

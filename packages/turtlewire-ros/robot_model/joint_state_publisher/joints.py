@@ -91,6 +91,7 @@ class JointSet:
         order: Names in the order of the description.
         free: The joints whose value is chosen.
         mimics: The joints that follow another one.
+        kinds: The type of each joint.
         lock: Held by every method; hold it to read or change several joints at once.
     """
 
@@ -98,6 +99,7 @@ class JointSet:
     order: list[str] = field(default_factory=list)
     free: dict[str, FreeJoint] = field(default_factory=dict)
     mimics: dict[str, MimicRule] = field(default_factory=dict)
+    kinds: dict[str, str] = field(default_factory=dict)
     lock: threading.RLock = field(default_factory=threading.RLock, repr=False, compare=False)
 
     def source_of(self, name: str) -> tuple[FreeJoint, MimicRule]:

@@ -84,8 +84,7 @@ class Sliders:
     def _describe(self, name: str) -> dict[str, Any]:
         mimic = self._joints.mimics.get(name)
         if mimic is not None:
-            source, _ = self._joints.source_of(name)
-            return {"name": name, "kind": source.kind, "mimic": mimic._asdict()}
+            return {"name": name, "kind": self._joints.kinds[name], "mimic": mimic._asdict()}
         joint = self._joints.free[name]
         return {
             "name": name,

@@ -81,6 +81,7 @@ def test_mimics():
     by_parameter = {"c": MimicRule("b", 3.0)}
     joints = read(*described, mimics=by_parameter)
     assert joints.mimics == {"a": MimicRule("b", -2.0, 0.5), "c": MimicRule("b", 3.0, 0.0)}
+    assert joints.kinds == {"a": "revolute", "b": "revolute", "c": "revolute"}
     assert read(*described, use_mimic_tags=False).mimics == {}
 
 

@@ -23,6 +23,7 @@ def make_joints() -> JointSet:
             "swivel": FreeJoint("swivel", "continuous", -math.pi, math.pi, 0.0, position=0.0),
         },
         {"wrist": MimicRule("elbow", -0.5, 0.25), "twin": MimicRule("swivel", 1.0, 0.0)},
+        {"wrist": "revolute", "twin": "continuous"},
     )
 
 

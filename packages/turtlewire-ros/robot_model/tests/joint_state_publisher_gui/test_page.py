@@ -167,9 +167,19 @@ def test_another_robot_replaces_the_joints(gui, page):
     assert page.locator(".joint").count() == 0
 
 
+def test_a_mimic_joint_has_the_unit_of_its_own_type(gui, open_page):
+    gui.joints.kinds["wrist"] = "prismatic"  # driven by a revolute joint
+    page = open_page(gui.screen.url)
+    assert row(page, "wrist").locator(".value").inner_text() == "m"
+    page.get_by_role("button", name="Degrees").click()
+    wait_for_value(page, "elbow", "0.0")
+    assert value(page, "wrist").input_value() == "0.250"
+
+
 def test_names_are_text_not_markup(gui, open_page):
     gui.joints.order.append("<img src=x onerror=alert(1)>")
     gui.joints.mimics["<img src=x onerror=alert(1)>"] = gui.joints.mimics["twin"]
+    gui.joints.kinds["<img src=x onerror=alert(1)>"] = "continuous"
     page = open_page(gui.screen.url)
     page.get_by_text("<img src=x onerror=alert(1)>").wait_for()
     assert page.locator(".joint img").count() == 0
