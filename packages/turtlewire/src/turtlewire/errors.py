@@ -268,9 +268,6 @@ class LookupException(TransformException):
     _buffer: Any = None
 
     def _make_hint(self) -> str:
-        import difflib
-        from string import digits
-
         if self._buffer is None:
             return ""
         if not self.frame:
@@ -288,13 +285,21 @@ class LookupException(TransformException):
             return f"Refused transforms of '{frame}': {sum(counts.values()):,}; the last: {text}"
         if frame in names:
             return f"'{frame}' arrived just after this lookup; a timeout waits for it."
-        # 'turtle1' and 'turtle2' are different turtles; one may not have been spawned yet.
-        others = [name for name in names if name.strip(digits) != frame.strip(digits)]
-        near = difflib.get_close_matches(frame, others, 3, 0.5)
-        if near:
-            return f"Did you mean {' or '.join(map(repr, near))}?"
-        some = ", ".join(map(repr, names[:10]))
-        return f"The frames are {some}{f' and {len(names) - 10} more' if len(names) > 10 else ''}."
+        return _what_exists(frame, names)
+
+
+def _what_exists(frame: str, names: list[str]) -> str:
+    """Return the hint of a lookup of an unknown frame: near names, or some that exist."""
+    import difflib
+    from string import digits
+
+    # 'turtle1' and 'turtle2' are different turtles; one may not have been spawned yet.
+    others = [name for name in names if name.strip(digits) != frame.strip(digits)]
+    near = difflib.get_close_matches(frame, others, 3, 0.5)
+    if near:
+        return f"Did you mean {' or '.join(map(repr, near))}?"
+    some = ", ".join(map(repr, names[:10]))
+    return f"The frames are {some}{f' and {len(names) - 10} more' if len(names) > 10 else ''}."
 
 
 #: Nanoseconds of the units that times come in by mistake.

@@ -82,7 +82,7 @@ def test_an_empty_domain_in_the_range_off(context, monkeypatch):
 @pytest.mark.parametrize(
     ("asked", "remedy"), [("python", "unset TURTLEWIRE_CORE"), ("", "Install g++")]
 )
-def test_what_helps_with_the_plain_core(monkeypatch, asked, remedy):
+def test_the_plain_core_has_the_remedy_that_fits(monkeypatch, asked, remedy):
     monkeypatch.setattr("turtlewire.tf.buffer.CORE", "python")
     findings = setup_findings({"TURTLEWIRE_CORE": asked}, [])
     (found,) = (each for each in findings if "plain-Python core" in each.text)

@@ -467,7 +467,7 @@ def test_errors_of_load_say_what_to_do(tmp_path: Path) -> None:
     path.write_bytes(path.read_bytes()[:-30])
     with pytest.raises(ValueError, match="cut off or damaged; save the buffer again"):
         Buffer.load(path)
-    with pytest.raises(FileNotFoundError, match="; did you mean '.*a.npz'"):
+    with pytest.raises(FileNotFoundError, match=r"; did you mean '.*a\.npz'"):
         Buffer.load(tmp_path / "b.npz")
 
 

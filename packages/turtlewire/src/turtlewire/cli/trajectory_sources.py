@@ -141,8 +141,8 @@ def _nothing_moves(source: TrajectorySource) -> str:
     target, moved = source.names
     return (
         f"nothing moves between '{target}' and '{moved}', so there is no path to follow: "
-        f"`turtlewire bag tf {shlex.quote(source.path)}` shows which frames have a rate. To look the "
-        f"pose up at the times of another trajectory, type "
+        f"`turtlewire bag tf {shlex.quote(source.path)}` shows which frames have a rate. To look "
+        "the pose up at the times of another trajectory, type "
         f"`turtlewire compare OTHER {shlex.quote(str(source))}`"
     )
 
