@@ -1,11 +1,13 @@
 """Well-known packages that are missing: errors name what to clone."""
 
+import sys
+
 import pytest
 from tests.programs import run_python
 
 from turtlewire import msg
 from turtlewire.errors import InterfaceError
-from turtlewire.package_sources import source_hint
+from turtlewire.package_sources import pip_install, source_hint
 
 NAV2 = (
     "nav2_msgs does not come with turtlewire. In the folder src of your workspace, type: "
@@ -44,6 +46,12 @@ def test_packages_of_ours_that_are_not_installed():
     hint = source_hint("cv_bridge")
     assert hint.startswith("cv_bridge comes with turtlewire-extras. ")
     assert hint.endswith(" -m pip install ./packages/turtlewire-extras")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="cmd has other quotes")
+def test_the_command_of_pip_quotes_the_path_of_python(monkeypatch):
+    monkeypatch.setattr("sys.executable", "/my venv/bin/python")
+    assert pip_install() == "'/my venv/bin/python' -m pip install"
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 
+from turtlewire.package_sources import pip_install
 from turtlewire.program import program
 
 _LAUNCH = ("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
@@ -48,8 +49,7 @@ def main(argv: list[str] | None = None) -> int:
         paths = " ".join(_NEEDED[name] for name in missing)
         sys.stderr.write(
             f"[demo] not installed: {', '.join(missing)}\n"
-            "[demo] in the folder of turtlewire's sources, type: "
-            f"{sys.executable} -m pip install {paths}\n"
+            f"[demo] in the folder of turtlewire's sources, type: {pip_install()} {paths}\n"
         )
         return 1
     ros2 = _ros2()

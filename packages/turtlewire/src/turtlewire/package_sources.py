@@ -8,6 +8,7 @@ need a ROS 2.
 from __future__ import annotations
 
 import functools
+import shlex
 import sys
 from collections.abc import Callable
 from types import TracebackType
@@ -117,6 +118,12 @@ _ELSEWHERE = {
 _ELSEWHERE_FROM = ("gazebo_", "moveit_", "nav2_", "ros_gz")
 
 
+def pip_install() -> str:
+    """Return the command, to be typed in a shell, that installs into this Python."""
+    python = sys.executable if sys.platform == "win32" else shlex.quote(sys.executable)
+    return f"{python} -m pip install"
+
+
 def source_hint(name: str) -> str:
     """Say how to get a package that is missing; empty if unknown.
 
@@ -128,7 +135,7 @@ def source_hint(name: str) -> str:
     if package in _EXTRAS:
         return (
             f"{package} comes with turtlewire-extras. In the folder of turtlewire's sources, type: "
-            f"{sys.executable} -m pip install ./packages/turtlewire-extras"
+            f"{pip_install()} ./packages/turtlewire-extras"
         )
     if package not in _SOURCES:
         is_elsewhere = package in _ELSEWHERE or package.startswith(_ELSEWHERE_FROM)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from turtlewire.cli.bag_commands import add_bag_commands, what_to_do_with_bag
 from turtlewire.cli.mcp_command import add_mcp
 from turtlewire.cli.relay_command import add_relay
+from turtlewire.package_sources import pip_install
 from turtlewire.plugins import declared
 from turtlewire.program import program
 from turtlewire.terminal.parser import (
@@ -73,8 +74,8 @@ def _run(argv: list[str] | None) -> int:
     if words and words[0] in _DISTRIBUTIONS and words[0] not in declared(_COMMANDS):
         print(
             f"turtlewire {words[0]}: the package {_DISTRIBUTIONS[words[0]]} is not installed. In "
-            f"the folder of turtlewire's sources, type: {sys.executable} -m pip install "
-            "./packages/* ./examples/learning_tf2_py",
+            f"the folder of turtlewire's sources, type: {pip_install()} ./packages/* "
+            "./examples/learning_tf2_py",
             file=sys.stderr,
         )
         return 2
