@@ -79,6 +79,8 @@ def test_mistakes_raise_clear_errors():
             sample_trajectory(filled(), "map", "base", rate_hz=rate)
     with pytest.raises(ValueError, match=r"1e\+12 Hz makes more than 20,000,000 poses of 4.\d+ s"):
         sample_trajectory(filled(), "map", "base", rate_hz=1e12)
+    with pytest.raises(ValueError, match="either `stamps` or `rate_hz`, not both"):
+        filled().trajectory("map", "base", stamps=[SECOND], rate_hz=10)
 
 
 def test_only_a_pause_longer_than_the_limit_is_a_gap():

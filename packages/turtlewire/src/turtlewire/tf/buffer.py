@@ -171,7 +171,8 @@ class Buffer(BaseBuffer):
 
         Raises:
             TransformException: The frames are unknown or not connected.
-            ValueError: All transforms in the chain are static, and no stamps were given.
+            ValueError: All transforms in the chain are static, and no stamps were given; or both
+                stamps and a rate were given.
         """
         from turtlewire.trajectory.sampling import sample_trajectory
 

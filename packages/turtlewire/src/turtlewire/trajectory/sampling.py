@@ -50,9 +50,11 @@ def sample_trajectory(
 
     Raises:
         TransformException: The frames are unknown or not connected.
-        ValueError: All transforms in the chain are static and no stamps were given, or the rate is
-            not positive or gives too many poses.
+        ValueError: All transforms in the chain are static and no stamps were given, both stamps
+            and a rate were given, or the rate is not positive or gives too many poses.
     """
+    if stamps is not None and rate_hz is not None:
+        raise ValueError("pass either `stamps` or `rate_hz`, not both")
     moving = moving_links(buffer, target_frame, source_frame)
     histories = [_stamps_of(buffer, child) for child in moving]
     gaps = sorted({gap for stamps_ns in histories for gap in find_gaps(stamps_ns, max_gap_ns)})
