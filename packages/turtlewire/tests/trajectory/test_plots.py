@@ -153,6 +153,8 @@ def test_undrawable_plots_raise():
         plot({"a": walk}, "box")
     with pytest.raises(TypeError, match=r"'path' draws trajectories by name; .* with PoseErrors"):
         plot({"a": compare(walk, walk).ape()}, "path")
+    with pytest.raises(TypeError, match="a reference is drawn next to trajectories, not"):
+        plot({"a": compare(walk, walk).ape()}, "box", reference=walk)
     with pytest.raises(TypeError, match=r"draws a dict .* by name, not list: plot\(\{'estimate'"):
         plot([walk])
     with pytest.raises(ValueError, match="'box' is not a kind of plot; choose from path, errors"):

@@ -172,7 +172,7 @@ def plot(
         plane: The axes of ``path``: ``xy``, ``xz``, ``yz`` or the other way round.
 
     Raises:
-        TypeError: The kind does not draw what is named.
+        TypeError: The kind does not draw what is named, or errors have a reference.
         ValueError: The kind of plot or the plane does not exist, or there is nothing to draw.
     """
     if not isinstance(named, Mapping):
@@ -190,6 +190,8 @@ def plot(
     if kind in KINDS and len(trajectories) == len(named):
         return plot_trajectories(trajectories, kind, reference, plane)
     if kind in _OF_ERRORS and len(errors) == len(named):
+        if reference is not None:
+            raise TypeError("a reference is drawn next to trajectories, not next to errors")
         return _OF_ERRORS[kind](errors)
     raise TypeError(
         f"'{kind}' draws {'trajectories' if kind in KINDS else 'errors'} by name; `plot` was "
