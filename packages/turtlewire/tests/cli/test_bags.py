@@ -241,6 +241,9 @@ def test_remarks_about_a_file_are_lines_below_each_other(capsys, tmp_path):
         ("trajectory BAG odom camera --format kitti", "--format needs --output"),
         ("trajectory BAG odom camera --kind speeds", "--kind needs --plot"),
         ("compare BAG:odom:camera BAG:odom:camera --kind box", "--kind needs --plot"),
+        ("compare BAG:odom:camera BAG:odom:camera --offset nan", "'nan' is not a number of sec"),
+        ("compare BAG:odom:camera BAG:odom:camera --offset 1e300", "'1e300' is not a number of"),
+        ("compare BAG:odom:camera BAG:odom:camera --poses-to-align 5", "needs --align"),
     ],
 )
 def test_mistakes(capsys, bag, words, text):

@@ -32,6 +32,8 @@ _RELATIONS = (
     "point_distance",
     "point_distance_error_ratio",
 )
+#: Stamps of today plus this many seconds still fit into 64 bits of nanoseconds.
+_TOO_LARGE_S = 4e9
 _SOURCES = (
     "A trajectory is a file (TUM, KITTI, EuRoC, CSV), a bag's topic BAG:/topic (odometry or poses) "
     "or BAG:target:source (transforms, looked up at the reference's stamps)."
@@ -164,7 +166,7 @@ def _add_pairing(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--offset",
-        type=float,
+        type=_offset,
         default=0.0,
         metavar="S",
         help="Seconds to add to the stamps of the estimates (default: %(default)s)",
@@ -224,6 +226,16 @@ def _positive(text: str) -> float:
     return value
 
 
+def _offset(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not abs(value) < _TOO_LARGE_S:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of seconds")
+    return value
+
+
 def _bag_tf(args: argparse.Namespace) -> int:
     from turtlewire.cli.bag_tf import show_transforms
 
@@ -250,6 +262,8 @@ def _compare(args: argparse.Namespace) -> int:
     from turtlewire.cli.compare_command import run_compare
 
     _check_kind(args)
+    if args.poses_to_align is not None and args.align == "none":
+        args.parser.error("--poses-to-align needs --align")
     return run_compare(args)
 
 
