@@ -333,6 +333,9 @@ def test_wrong_words(pair):
     for count in (0, -1):
         with pytest.raises(ValueError, match=f"poses_to_align is {count}; it must be positive"):
             compare(*pair, "se3", poses_to_align=count)
+    for offset in (2**63 - 1, -(2**63), 10**19):  # added to stamps, the first would wrap around
+        with pytest.raises(ValueError, match=f"offset_ns is {offset}; it moves"):
+            compare(*pair, offset_ns=offset)
     with pytest.raises(ValueError, match="300 and 10 poses; associate them first"):
         ape(pair[0], pair[1][:10])
 

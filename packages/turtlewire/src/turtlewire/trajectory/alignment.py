@@ -74,11 +74,17 @@ def associate(
         Rows of the reference and of the estimate, of equal length.
 
     Raises:
-        ValueError: No poses can be paired (the message names both time ranges), or the stamps have
-            different units.
+        ValueError: No poses can be paired (the message names both time ranges), the stamps have
+            different units, or the offset is too large.
     """
     if max_diff_ns < 0:
         raise ValueError(f"max_diff_ns is {max_diff_ns}; it must not be negative")
+    ends = (*estimate.stamps_ns[:1], *estimate.stamps_ns[-1:])  # none of an empty one
+    # Differences of such stamps still fit into 64 bits; NumPy would wrap around.
+    if offset_ns and any(abs(int(end) + offset_ns) >= 2**62 for end in ends):
+        raise ValueError(
+            f"offset_ns is {offset_ns}; it moves the estimate more than 146 years away from 1970"
+        )
     first, second = reference.stamps_ns, estimate.stamps_ns + offset_ns
     _check_units(first, second)
     if len(first) < len(second):
