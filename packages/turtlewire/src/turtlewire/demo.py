@@ -16,7 +16,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 
-from turtlewire.package_sources import pip_install
 from turtlewire.program import program
 
 _LAUNCH = ("launch", "learning_tf2_py", "turtle_tf2_demo.launch.py")
@@ -49,18 +48,23 @@ def main(argv: list[str] | None = None) -> int:
         paths = " ".join(_NEEDED[name] for name in missing)
         sys.stderr.write(
             f"[demo] not installed: {', '.join(missing)}\n"
-            f"[demo] in the folder of turtlewire's sources, type: {pip_install()} {paths}\n"
+            "[demo] in the folder of turtlewire's sources, type: "
+            f"{_typed(sys.executable)} -m pip install {paths}\n"
         )
         return 1
     ros2 = _ros2()
-    typed = ros2 if sys.platform == "win32" else shlex.quote(ros2)
     sys.stdout.write(
         "[demo] drive turtle1 with the arrow keys, in the page or in a second terminal:\n"
-        f"[demo]     {typed} run turtlesim turtle_teleop_key\n"
+        f"[demo]     {_typed(ros2)} run turtlesim turtle_teleop_key\n"
         "[demo] Ctrl-C ends it\n"
     )
     sys.stdout.flush()
     return _run([ros2, *_LAUNCH], seconds)
+
+
+def _typed(path: str) -> str:
+    """Return a path as it is typed in a shell."""
+    return path if sys.platform == "win32" else shlex.quote(path)
 
 
 def _ros2() -> str:
