@@ -4,6 +4,7 @@ import base64
 import contextlib
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -229,6 +230,8 @@ def test_wrong_names_and_numbers_are_explained(simulator):
         assert text.endswith("No message on /turtle1/cmd_vel within 0.2 s; it has no publisher")
         text = await assistant.refused("drive", topic="/turtle1/cmd_vel", duration_s=50)
         assert text.endswith("duration_s is 50; it must be above 0 and at most 5 seconds")
+        text = await assistant.refused("drive", topic="/turtle1/cmd_vel", linear=1.0)
+        assert re.search("linear.*not permitted", text, re.DOTALL)
         text = await assistant.refused("drive", topic="/turtle1/pose")
         assert "has the type turtlesim/msg/Pose; drive needs geometry_msgs/msg/Twist" in text
         text = await assistant.refused("list_frames", listen_s=0.1)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from mcp.server import MCPServer
 from mcp.server.mcpserver import Image
 from mcp.server.mcpserver.exceptions import ToolError
+from mcp.server.mcpserver.tools import Tool
 from mcp_types import ToolAnnotations
 
 from turtlewire.cli.assistant.acting import Acting
@@ -44,9 +45,6 @@ def make_server(network: Network, permissions: Permissions, rate: int) -> MCPSer
         rate: How many calls a minute may have.
     """
     allowed = f"publish, drive and call_service may use: {permissions}" if permissions else ""
-    server: MCPServer[Any] = MCPServer(
-        "turtlewire", instructions=_INSTRUCTIONS + (allowed or _READ_ONLY), log_level="WARNING"
-    )
     limit = RateLimit(rate)
     looking, acting = Looking(network, permissions), Acting(network, permissions)
 
@@ -58,13 +56,30 @@ def make_server(network: Network, permissions: Permissions, rate: int) -> MCPSer
         looking.lookup_transform,
         _plot_tool(looking),
     )
-    for tool in (*reading, acting.publish, acting.drive, acting.call_service):
-        server.add_tool(
-            _guarded(tool, limit),
-            annotations=ToolAnnotations(read_only_hint=tool in reading, open_world_hint=False),
-            structured_output=False,
-        )
-    return server
+    tools = [
+        _strict_tool(_guarded(tool, limit), reads=tool in reading)
+        for tool in (*reading, acting.publish, acting.drive, acting.call_service)
+    ]
+    return MCPServer(
+        "turtlewire",
+        instructions=_INSTRUCTIONS + (allowed or _READ_ONLY),
+        tools=tools,
+        log_level="WARNING",
+    )
+
+
+def _strict_tool(function: Callable[..., Awaitable[Any]], *, reads: bool) -> Tool:
+    """Return a tool that refuses arguments it does not have.
+
+    By default the SDK drops them: a robot would be "driven" at velocity 0 for a misspelt one.
+    """
+    annotations = ToolAnnotations(read_only_hint=reads, open_world_hint=False)
+    tool = Tool.from_function(function, annotations=annotations, structured_output=False)
+    arguments = tool.fn_metadata.arg_model
+    arguments.model_config["extra"] = "forbid"
+    arguments.model_rebuild(force=True)
+    tool.parameters = arguments.model_json_schema(by_alias=True)
+    return tool
 
 
 def _plot_tool(looking: Looking) -> Callable[..., Awaitable[list[Any]]]:
