@@ -39,7 +39,7 @@ def tree_lines(robot: Robot) -> Iterator[str]:
     left = [(1, number, joint) for number, joint in reversed([*enumerate(children, 1)])]
     while left:
         level, number, joint = left.pop()
-        yield f"{'  ' * (level + 1)}child({number}):  {printable(joint.child)}"
+        yield f"{'    ' * level}child({number}):  {printable(joint.child)}"
         below = robot.child_joints[joint.child]
         left += [(level + 1, count, each) for count, each in reversed([*enumerate(below, 1)])]
 

@@ -18,12 +18,12 @@ TREE = """robot name is: raft
 ---------- Successfully Parsed XML ---------------
 root Link: raft_root has 2 child(ren)
     child(1):  deck
-      child(1):  sail
-        child(1):  lamp
-          child(1):  lamp_lens
-          child(2):  puck
+        child(1):  sail
+            child(1):  lamp
+                child(1):  lamp_lens
+                child(2):  puck
     child(2):  slab
-      child(1):  pin
+        child(1):  pin
 """
 REFUSED = """Error:   Unable to parse component [zero] to a double (while parsing a vector value)
          at line 6 in <origin> in <joint name="j">
