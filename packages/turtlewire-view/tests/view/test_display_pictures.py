@@ -401,11 +401,11 @@ def test_a_texture_that_is_none(scene):
     scene.expect_status("marker n/1: 'embedded://four' is not an image that this browser can read")
 
 
-def stl(*triangles):
+def stl(*triangles, normal=(0, 0, 1)):
     """A binary STL file."""
     data = bytes(80) + struct.pack("<I", len(triangles))
     for triangle in triangles:
-        data += struct.pack("<12fH", 0, 0, 1, *np.ravel(triangle), 0)
+        data += struct.pack("<12fH", *normal, *np.ravel(triangle), 0)
     return data
 
 
@@ -414,6 +414,7 @@ def package(meshes):
     """The package ``arm`` with a mesh: a triangle on the ground."""
     corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     (meshes / "flat.stl").write_bytes(stl(corners))
+    (meshes / "no_normals.stl").write_bytes(stl(corners, normal=(0, 0, 0)))
     (meshes / "four.bmp").write_bytes(IMAGE)
     (meshes / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     (meshes / "painted.obj").write_text(
@@ -432,9 +433,9 @@ def package(meshes):
 
 
 @pytest.mark.usefixtures("package")
-@pytest.mark.parametrize("form", ["stl", "obj", "dae", "gltf"])
-def test_a_mesh(scene, form):
-    message = marker(10, scale=(2, 1, 1), mesh_resource=f"package://arm/meshes/flat.{form}")
+@pytest.mark.parametrize("name", ["flat.stl", "no_normals.stl", "flat.obj", "flat.dae", "flat.gltf"])
+def test_a_mesh(scene, name):
+    message = marker(10, scale=(2, 1, 1), mesh_resource=f"package://arm/meshes/{name}")
     scene.show("marker", message)
     scene.expect_red((1.2, 0.2, 0), (2.2, 0.2, 0))
     scene.expect_ground((2.5, 0.8, 0))

@@ -17,6 +17,7 @@ const PARSERS = {
   stl: async (bytes) => {
     const { STLLoader } = await import("three/addons/loaders/STLLoader.js");
     const geometry = new STLLoader().parse(bytes);
+    if (lacksNormals(geometry)) geometry.computeVertexNormals();
     const look = new MeshLambertMaterial({ vertexColors: geometry.hasColors ?? false });
     return { object: new Mesh(geometry, look), isOwn: false };
   },
@@ -41,6 +42,15 @@ const PARSERS = {
   },
 };
 PARSERS.gltf = PARSERS.glb;
+
+/** Whether a normal has no length: some programs write zeros, and RViz computes those normals. */
+function lacksNormals(geometry) {
+  const { array } = geometry.attributes.normal;
+  for (let at = 0; at < array.length; at += 3) {
+    if (!(Math.hypot(array[at], array[at + 1], array[at + 2]) > 0)) return true;
+  }
+  return false;
+}
 
 /** Names and URLs to promises of objects; each user gets a copy. */
 const known = new Map();
