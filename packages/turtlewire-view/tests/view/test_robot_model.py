@@ -142,6 +142,14 @@ def test_a_description_that_is_none(text, line):
     assert (status.level, status.text[: len(line)]) == ("error", line)
 
 
+def test_what_urdfdom_forgives_is_said():
+    text = "<robot name='x'>\n<link name='a'><inertial><mass value='b'/></inertial></link></robot>"
+    content, status = described(text)
+    assert content.header["links"]
+    assert status.level == "warn"
+    assert "(line 2 in <mass> in <link name=\"a\">)" in status.text
+
+
 @pytest.mark.parametrize(
     ("uri", "why"),
     [

@@ -169,7 +169,7 @@ def robot_content(
     Args:
         text: The XML.
         tf_prefix: Stands before the links' names.
-        warn: Gets what cannot be drawn.
+        warn: Gets what urdfdom forgives, and what cannot be drawn.
         packages: Where packages with meshes lie.
 
     Raises:
@@ -181,6 +181,8 @@ def robot_content(
         robot = Robot.from_xml(text)
     except UrdfError as error:
         raise UnusableMessageError(f"the description is invalid: {error}") from error
+    for warning in robot.warnings:
+        warn(f"{warning.text} ({warning.place})")
     reader = _Reader(robot, warn, packages)
     prefix = tf_prefix.rstrip("/") + "/" if tf_prefix else ""
     links = [
