@@ -430,6 +430,28 @@ def test_pieces_have_about_the_size(tmp_path, compression):
         assert min(sizes[:-1]) > 52_000
 
 
+def test_a_chunk_that_is_larger_than_a_piece_is_divided(tmp_path):
+    source = text_bag(tmp_path / "in", range(START, START + 300))
+    done = split_bag(source, tmp_path / "out", size="4kB")
+    assert len(done.paths) > 2
+    assert done.messages == 300
+    assert [each for path in done.paths for each in everything(path)] == everything(source)
+
+
+def test_pieces_of_a_size_are_not_too_many(tmp_path, monkeypatch):
+    monkeypatch.setattr("turtlewire.bag.pieces.MOST_PIECES", 3)
+    source = text_bag(tmp_path / "in", range(START, START + 4))
+    with pytest.raises(BagError, match=r"^this makes more than 3 bags$"):
+        split_bag(source, tmp_path / "out", size=1)
+    assert not (tmp_path / "out").exists()
+
+
+def test_sqlite3_refuses_lz4(tmp_path):
+    source = text_bag(tmp_path / "in", [START])
+    with pytest.raises(BagError, match=r"^sqlite3 files compress messages with zstd, not with lz4"):
+        copy_bag(source, tmp_path / "out", storage="sqlite3", compression="lz4")
+
+
 @pytest.mark.parametrize(("size", "counts"), [(29, [1, 1, 1, 1]), (30, [2, 2]), (44, [2, 2])])
 def test_a_message_that_just_fits_belongs_to_the_piece(tmp_path, size, counts):
     # Of a database, the bytes of the messages count.

@@ -184,7 +184,11 @@ class ChunkCopy:
         """Copy a chunk as bytes if that is possible, else its messages in the order of the file."""
         names = self._names[each.file]
         try:
-            if whole is not None and self._has_same_numbers(each, pieces):
+            if (
+                whole is not None
+                and pieces.may_hold(len(whole.record))
+                and self._has_same_numbers(each, pieces)
+            ):
                 pieces.copy_chunk(whole)
                 return
             for log_time, number, publish_time, data in self._readable(each):

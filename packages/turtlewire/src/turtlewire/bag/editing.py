@@ -19,7 +19,7 @@ from turtlewire.bag.mcap_storage import McapStorage
 from turtlewire.bag.message_choice import check_unit
 from turtlewire.bag.metadata import NEWEST_VERSION
 from turtlewire.bag.output_channels import OutputChannels, Selection, as_tuple
-from turtlewire.bag.pieces import Pieces
+from turtlewire.bag.pieces import MOST_PIECES, Pieces
 from turtlewire.bag.progress import progress_line
 from turtlewire.bag.reader import open_bag
 from turtlewire.bag.times import date_text, duration_ns, moment_ns, size_bytes
@@ -44,7 +44,6 @@ __all__ = ["COMPRESSIONS", "BagOptions", "WrittenBags", "copy_bag", "merge_bags"
 COMPRESSIONS = ("none", "zstd", "lz4", "file")
 
 _FOREVER = 1 << 64
-_MOST_PIECES = 10_000
 _MESSAGES_FOR_HINT = 1000
 
 
@@ -66,7 +65,7 @@ class BagOptions(TypedDict, total=False):
             as their publishers keep. Their log time is the start.
         storage: ``"mcap"`` or ``"sqlite3"``; by default that of the first bag.
         compression: ``"none"``, ``"zstd"`` or ``"lz4"`` (chunks of MCAP, messages of sqlite3 with
-            zstd only), or ``"file"`` (whole files); by default that of the first bag.
+            zstd only), or ``"file"`` (whole files); by default as the first bag.
         progress: Called with the share that is done, from 0 to 1; by default a line on a terminal.
     """
 
@@ -155,7 +154,7 @@ def split_bag(
             must not exist. After an error it does not exist.
         every: The length of each bag: nanoseconds, or a text such as ``"60s"``.
         size: The size at which a new bag begins, up to some kilobytes of metadata: bytes, or a text
-            such as ``"1GB"``. A bag has at least one chunk or message.
+            such as ``"1GB"``. A bag has at least one message.
         at: The times at which a new bag begins, as ``start`` in `BagOptions`.
         **options: See `BagOptions`.
 
@@ -214,8 +213,8 @@ class _Cuts:
         if step <= 0:
             raise BagError(f"every must be positive, got {self.every}")
         count = (end_ns - start_ns) // step
-        if count > _MOST_PIECES:
-            raise BagError(f"every={self.every} makes {count:,} bags, more than {_MOST_PIECES:,}")
+        if count > MOST_PIECES:
+            raise BagError(f"every={self.every} makes {count:,} bags, more than {MOST_PIECES:,}")
         return list(range(start_ns + step, end_ns, step))
 
 
@@ -262,6 +261,8 @@ class _Operation:
         self._channels = OutputChannels(bags, self._selection, self._storage)
         self._extras = extras_of_bags(bags, self._damaged)
         if self._storage != "mcap":
+            if options.get("compression") == "lz4":
+                raise BagError("sqlite3 files compress messages with zstd, not with lz4")
             self._damage += left_out(self._extras, "only MCAP files have such records")
             self._extras = []
 

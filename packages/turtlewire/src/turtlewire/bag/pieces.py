@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.bag.writer import BagWriter
+from turtlewire.errors import BagError
 
 if TYPE_CHECKING:
     from turtlewire.bag.extra_records import ExtraRecord
@@ -15,7 +16,9 @@ if TYPE_CHECKING:
     from turtlewire.bag.message import BagMessage
     from turtlewire.bag.output_channels import OutputChannels
 
-__all__ = ["Pieces"]
+__all__ = ["MOST_PIECES", "Pieces"]
+
+MOST_PIECES = 10_000
 
 
 class Pieces:
@@ -95,6 +98,10 @@ class Pieces:
         self.messages += sum(chunk.counts.values())
         self._is_empty = False
 
+    def may_hold(self, size: int) -> bool:
+        """Return True if something of a size does not exceed the limit of a bag by itself."""
+        return not self._max_bytes or size <= self._max_bytes
+
     def close(self) -> None:
         """Finish the last bag."""
         self.begin(None)
@@ -119,6 +126,8 @@ class Pieces:
         return self._writer
 
     def _open(self, start_ns: int) -> None:
+        if len(self.paths) == MOST_PIECES:
+            raise BagError(f"this makes more than {MOST_PIECES:,} bags")
         path = self._folder
         if self._numbered:
             path = os.path.join(path, f"{os.path.basename(path)}_{len(self.paths)}")
