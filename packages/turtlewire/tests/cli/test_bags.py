@@ -188,6 +188,25 @@ def test_kitti_names_the_file_with_the_times(capsys, bag, tmp_path):
     assert len((tmp_path / "out_times.txt").read_text().splitlines()) == 100
 
 
+def test_kitti_without_times_has_no_rate(capsys, tmp_path):
+    poses = "".join(f"1 0 0 {x} 0 1 0 0 0 0 1 0\n" for x in range(3))
+    (tmp_path / "walk.kitti").write_text(poses)
+    done = run(capsys, "trajectory", tmp_path / "walk.kitti")
+    source = f"none; those of KITTI are read from {tmp_path / 'walk_times.txt'}"
+    assert done.out.endswith(f"  poses     3\n  path      2.000 m\n  times     {source}\n")
+    figures = json.loads(run(capsys, "trajectory", tmp_path / "walk.kitti", "--json").out)
+    absent = ("duration", "start_ns", "end_ns", "rate", "mean_speed", "max_speed")
+    assert [figures[key] for key in absent] == [None] * 6
+
+
+def test_the_estimate_that_cannot_be_compared_is_named(capsys, tmp_path):
+    (tmp_path / "one.tum").write_text("1 0 0 0 0 0 0 1\n")
+    (tmp_path / "two.tum").write_text("2 0 0 0 0 0 0 1\n")
+    done = run(capsys, "compare", *(tmp_path / f"{name}.tum" for name in ("one", "one", "two")))
+    assert done.status == 2
+    assert f"compare: {tmp_path / 'two.tum'}: no stamps of the two trajectories" in done.err
+
+
 @pytest.mark.parametrize(
     ("text", "what"), [("", "nothing"), ("# t x y z\n\n", "only comments and words")]
 )

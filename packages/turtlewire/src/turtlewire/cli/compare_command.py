@@ -39,14 +39,17 @@ def run_compare(args: argparse.Namespace) -> int:
         name = str(parse_source(text))
         estimate = reader.read(parse_source(text), like=reference)
         poses[name] = (len(reference), len(estimate))
-        compared[name] = compare(
-            reference,
-            estimate,
-            args.align,
-            max_diff_ns=round(args.max_diff * 1e9),
-            offset_ns=round(args.offset * 1e9),
-            poses_to_align=args.poses_to_align,
-        )
+        try:
+            compared[name] = compare(
+                reference,
+                estimate,
+                args.align,
+                max_diff_ns=round(args.max_diff * 1e9),
+                offset_ns=round(args.offset * 1e9),
+                poses_to_align=args.poses_to_align,
+            )
+        except ValueError as error:
+            raise ValueError(f"{printable(name)}: {error}") from error
     if args.plot:
         _draw(args, compared).save(args.plot)
     if args.json:

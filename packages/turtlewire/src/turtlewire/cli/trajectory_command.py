@@ -52,14 +52,16 @@ def run_trajectory(args: argparse.Namespace) -> int:
 
 
 def _figures(source: TrajectorySource, trajectory: Trajectory) -> dict[str, object]:
-    stamps, speeds = trajectory.stamps_ns, trajectory.speeds
+    # Without times, the stamps only number the poses.
+    count = len(trajectory) if trajectory.timed else 0
+    stamps, speeds = trajectory.stamps_ns[:count], trajectory.speeds[:count]
     return {
         "source": str(source),
         "frame": trajectory.target_frame,
         "child_frame": trajectory.source_frame,
         "poses": len(trajectory),
         "path_length": trajectory.path_length,
-        "duration": trajectory.duration_ns / 1e9,
+        "duration": trajectory.duration_ns / 1e9 if trajectory.timed else None,
         "start_ns": int(stamps[0]) if len(stamps) else None,
         "end_ns": int(stamps[-1]) if len(stamps) else None,
         "rate": (len(stamps) - 1) * 1e9 / trajectory.duration_ns if len(stamps) > 1 else None,
@@ -76,14 +78,14 @@ def _lines(source: TrajectorySource, trajectory: Trajectory, written: list[str])
     if not len(trajectory):
         return [f"{what}: no poses"]
     figures = _figures(source, trajectory)
-    rows = {
-        "poses": f"{len(trajectory):,}",
-        "path": f"{trajectory.path_length:.3f} m",
-        "duration": f"{trajectory.duration_ns / 1e9:.3f} s",
-        "from": f"{trajectory.stamps_ns[0] / 1e9:.6f} s",
-        "to": f"{trajectory.stamps_ns[-1] / 1e9:.6f} s",
-    }
-    if len(trajectory) > 1:
+    rows = {"poses": f"{len(trajectory):,}", "path": f"{trajectory.path_length:.3f} m"}
+    if trajectory.timed:
+        rows["duration"] = f"{trajectory.duration_ns / 1e9:.3f} s"
+        rows["from"] = f"{trajectory.stamps_ns[0] / 1e9:.6f} s"
+        rows["to"] = f"{trajectory.stamps_ns[-1] / 1e9:.6f} s"
+    else:
+        rows["times"] = f"none; those of KITTI are read from {printable(kitti_times(source.path))}"
+    if trajectory.timed and len(trajectory) > 1:
         rows["rate"] = f"{figures['rate']:.1f} Hz"
         rows["speed"] = f"{figures['mean_speed']:.3f} m/s, at most {figures['max_speed']:.3f} m/s"
     lines = [what, *(f"  {name:9} {value}" for name, value in rows.items())]
