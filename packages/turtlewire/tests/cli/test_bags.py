@@ -3,14 +3,17 @@
 import io
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 from types import SimpleNamespace
 
 import pytest
+from rosbags.typesys import Stores, get_typestore
 from tests.bags import SECOND, START, transform, write_bag
-from tests.places import TURTLEWIRE
+from tests.places import ROOT, TURTLEWIRE
+from tests.rosbags_messages import write_ros1
 
 from turtlewire import msg
 from turtlewire.bag import BagWriter, reindex
@@ -33,6 +36,36 @@ def run(capsys, *words):
 @pytest.fixture
 def bag(tmp_path):
     return write_bag(tmp_path / "made")
+
+
+def keys_in(value):
+    """All keys of dictionaries in a JSON value, without names of topics and frames."""
+    if isinstance(value, dict):
+        own = {key for key in value if key.isidentifier()}
+        return own.union(*map(keys_in, value.values()))
+    return set().union(*map(keys_in, value)) if isinstance(value, list) else set()
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("doctor", ("bag",)),
+        ("bag info", ("bag",)),
+        ("bag tf", ("bag",)),
+        ("trajectory", ("bag", "odom", "camera")),
+        ("compare", ("way.tum", "way.tum")),
+    ],
+)
+def test_the_keys_of_json_are_documented(capsys, tmp_path, monkeypatch, command, words):
+    monkeypatch.chdir(tmp_path)
+    write_bag(tmp_path / "bag")
+    (tmp_path / "bag" / "metadata.yaml").unlink()  # a finding of doctor
+    (tmp_path / "way.tum").write_text("1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n3 2 1 0 0 0 0 1\n")
+    page = (ROOT / "docs" / "reference" / "ros2_json.md").read_text(encoding="utf-8")
+    (row,) = re.findall(rf"^\| `turtlewire {command}` \| (.*) \|$", page, re.MULTILINE)
+    found = json.loads(run(capsys, *command.split(), *words, "--json").out)
+    assert keys_in(found)
+    assert keys_in(found) <= set(re.findall(r"`(\w+)`", row))
 
 
 def test_the_tree_of_a_bag(capsys):
@@ -331,6 +364,15 @@ def test_the_doctor_finds_faults_of_the_bag(capsys, bag):
     done = run(capsys, "doctor", bag, "--json")
     assert done.status == 1
     assert "made_0.mcap" in json.loads(done.out)["findings"][0]["text"]
+
+
+def test_reindex_is_not_advised_for_a_file_of_ros1(capsys, tmp_path):
+    path = tmp_path / "one.bag"
+    write_ros1(path, get_typestore(Stores.ROS1_NOETIC), ["std_msgs/msg/Int8"])
+    path.write_bytes(path.read_bytes()[:-100])
+    done = run(capsys, "doctor", path)
+    assert done.status == 1
+    assert "The intact part was read. Copy the file again.\n" in done.out
 
 
 def test_a_file_of_a_split_bag_is_a_part(capsys):

@@ -12,7 +12,7 @@ import threading
 import time
 
 import pytest
-from tests.places import TURTLEWIRE
+from tests.places import ROOT, TURTLEWIRE
 
 import turtlewire
 from geometry_msgs.msg import TransformStamped
@@ -185,6 +185,9 @@ def test_loops_are_named_and_deep_trees_are_drawn():
 def test_a_tree_as_json(buffer):
     data = json.loads(take_picture(buffer, NOW_NS).as_json())
     assert data["now_ns"] == NOW_NS
+    page = (ROOT / "docs" / "reference" / "ros2_json.md").read_text(encoding="utf-8")
+    (row,) = re.findall(r"^\| `turtlewire frames` \| (.*) \|$", page, re.MULTILINE)
+    assert {*data, *data["frames"][0]} == set(re.findall(r"`(\w+)`", row))
     assert data["loops"] == []
     assert [frame["frame"] for frame in data["frames"]] == [
         "world",

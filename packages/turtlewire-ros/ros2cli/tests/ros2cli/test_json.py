@@ -362,7 +362,7 @@ def printed_by_program(run, command):
 
 VERBS = [
     verb
-    for row in re.findall(r"^\| (`\w+ \w+`(?:, `\w+ \w+`)*) \|", PAGE, re.MULTILINE)
+    for row in re.findall(r"^\| (`(?!turtlewire)\w+ \w+`(?:, `\w+ \w+`)*) \|", PAGE, re.MULTILINE)
     for verb in re.findall(r"`(\w+ \w+)`", row)
 ]
 
