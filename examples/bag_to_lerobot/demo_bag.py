@@ -120,5 +120,8 @@ def write_demo_bag(path: str, seconds: float = 5.0, seed: int = 1) -> None:
 
 if __name__ == "__main__":
     for number, name in enumerate(sys.argv[1:]):
-        write_demo_bag(name, seed=number)
+        try:
+            write_demo_bag(name, seed=number)
+        except FileExistsError:
+            sys.exit(f"{name} exists already")
         print(f"wrote {name}")

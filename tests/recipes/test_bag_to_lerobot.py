@@ -3,6 +3,8 @@
 import importlib
 import io
 import json
+import subprocess
+import sys
 from bisect import bisect_right
 from types import SimpleNamespace
 
@@ -314,6 +316,12 @@ def test_mistakes_are_named(convert, demo, capsys, words, text):
     folder = convert(demo, *words, status=1)
     assert text in capsys.readouterr().err
     assert not folder.exists()
+
+
+def test_a_demo_bag_that_exists_is_kept(demo):
+    program = EXAMPLES / "bag_to_lerobot" / "demo_bag.py"
+    done = subprocess.run([sys.executable, program, demo], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (1, f"{demo} exists already\n")
 
 
 def test_a_folder_in_a_missing_folder_is_named(recipe, demo, tmp_path, capsys):

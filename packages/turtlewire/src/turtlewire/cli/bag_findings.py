@@ -24,10 +24,7 @@ if TYPE_CHECKING:
     from turtlewire.bag import Bag, TransformReport
 
 _REINDEX = "`ros2 bag reindex {}` writes metadata.yaml; the intact files are read without it."
-_DAMAGED = (
-    "The intact part was read. Copy the file again; or `ros2 bag reindex FOLDER` makes a file that "
-    "was cut off whole."
-)
+_INTACT = "The intact part was read. Copy the file again"
 _NOT_CDR = "turtlewire.bag reads their bytes; to decode them, use the program that wrote the file."
 _NO_TF = "Record /tf and /tf_static."
 _OTHER_TF = "To examine them: turtlewire doctor {} {}"
@@ -78,7 +75,7 @@ def examine_bag(
         found += _other_transforms(bag, path, {*moving, *fixed})
         if (topics, static_topics) == ("/tf", "/tf_static") and not _has_tf(bag):
             unread = [text for path in bag.metadata.paths for text in _unreadable(bag, path)]
-            found += [problem(text, _DAMAGED) for text in (*bag.problems, *unread)]
+            found += [problem(text, _remedy_of_damage(path)) for text in (*bag.problems, *unread)]
             if not _tf_topics(bag):
                 found.append(note("The bag has no transforms.", _NO_TF))
             return found
@@ -87,7 +84,7 @@ def examine_bag(
         report = fill_buffer(buffer, path, topics=topics, static_topics=static_topics)
     except BagError as error:
         return [*found, problem(str(error), error.hint)]
-    found += [problem(text, _DAMAGED) for text in report.problems]
+    found += [problem(text, _remedy_of_damage(path)) for text in report.problems]
     traffic = _traffic(buffer, report, end_ns)
     traffic.written = {name: set() for name in _written_names(path, [*moving, *fixed])}
     return [*found, *_report_findings(report), *recorded_findings(traffic)]
@@ -113,6 +110,13 @@ def _other_transforms(bag: Bag, path: str, read: set[str]) -> list[Finding]:
     options = as_options(others)
     text = f"The bag has transforms on {', '.join(others)}, which are not examined."
     return [note(text, _OTHER_TF.format(path, options))]
+
+
+def _remedy_of_damage(path: str) -> str:
+    """Return what to do about damage; files of ROS 1 cannot be repaired."""
+    if path.endswith(".bag"):
+        return f"{_INTACT}."
+    return f"{_INTACT}; or `ros2 bag reindex FOLDER` makes a file that was cut off whole."
 
 
 def _unreadable(bag: Bag, path: str) -> list[str]:
