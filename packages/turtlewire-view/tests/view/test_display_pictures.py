@@ -433,7 +433,9 @@ def package(meshes):
 
 
 @pytest.mark.usefixtures("package")
-@pytest.mark.parametrize("name", ["flat.stl", "no_normals.stl", "flat.obj", "flat.dae", "flat.gltf"])
+@pytest.mark.parametrize(
+    "name", ["flat.stl", "no_normals.stl", "flat.obj", "flat.dae", "flat.gltf"]
+)
 def test_a_mesh(scene, name):
     message = marker(10, scale=(2, 1, 1), mesh_resource=f"package://arm/meshes/{name}")
     scene.show("marker", message)

@@ -147,7 +147,7 @@ def test_what_urdfdom_forgives_is_said():
     content, status = described(text)
     assert content.header["links"]
     assert status.level == "warn"
-    assert "(line 2 in <mass> in <link name=\"a\">)" in status.text
+    assert '(line 2 in <mass> in <link name="a">)' in status.text
 
 
 @pytest.mark.parametrize(
