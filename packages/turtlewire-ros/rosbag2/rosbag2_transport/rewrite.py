@@ -14,6 +14,7 @@ from rclpy.logging import get_logger
 from rosbag2_transport.progress import ProgressLine, time_text
 from rosbag2_transport.topic_filter import TopicFilter
 from turtlewire.bag.metadata import is_decodable, not_in_cdr
+from turtlewire.errors import BagError
 from turtlewire.terminal.printable import printable
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.wording import counted
@@ -54,7 +55,8 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> list[str]:
 
     Raises:
         RuntimeError: A pattern is not a regular expression.
-        BagError: A topic has different types, or a bag is damaged; what can be read is written.
+        BagError: A topic has different types, or a bag is damaged; what can be read is written. The
+            text also names what is left out.
         OSError: The disk is full, for example.
     """
     done = 0
@@ -80,6 +82,11 @@ def rewrite(inputs: Sequence[Bag], outputs: Sequence[Output]) -> list[str]:
             f"removed ({paths})"
         )
         raise
+    except BagError as error:
+        if not done:
+            _discard(outputs)
+        damage = "; ".join(map(str, (error, *error.others)))
+        raise BagError(" ".join([*left_out.values(), damage])).with_hint(error.hint) from error
     except Exception:
         if not done:
             _discard(outputs)

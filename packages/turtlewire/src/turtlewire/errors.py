@@ -75,7 +75,13 @@ class TurtlewireError(Exception):
 
 
 class BagError(TurtlewireError, ValueError):
-    """A bag is damaged, incomplete, or of a kind that cannot be read or written."""
+    """A bag is damaged, incomplete, or of a kind that cannot be read or written.
+
+    Attributes:
+        others: The errors of other parts of the bag, if reading went on after this one.
+    """
+
+    others: tuple[BagError, ...] = ()
 
 
 class CdrError(TurtlewireError, ValueError):

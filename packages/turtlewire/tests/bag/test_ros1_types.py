@@ -156,6 +156,18 @@ def test_a_topic_without_a_readable_definition_is_named(tmp_path):
             message.decode()
 
 
+def test_each_topic_that_loses_messages_is_a_problem_of_the_copy(tmp_path):
+    with Writer(tmp_path / "in.bag") as writer:
+        for name in ("/one", "/two"):
+            text = writer.add_connection(name, "std_msgs/msg/String", typestore=ROS1)
+            writer.write(text, START, b"\2\0\0\0hi")
+            writer.write(text, START + 1, b"\3\0\0\0hi")
+    problems = copy_bag(tmp_path / "in.bag", tmp_path / "out").problems
+    assert [each.split(":")[1] for each in problems] == [
+        " left out 1 message of /one", " left out 1 message of /two"
+    ]  # fmt: skip
+
+
 def test_messages_of_ros1_in_an_mcap(tmp_path):
     names = ["sensor_msgs/msg/Range", TF, "std_msgs/msg/Empty"]
     write_ros1(tmp_path / "old.bag", ROS1, names)

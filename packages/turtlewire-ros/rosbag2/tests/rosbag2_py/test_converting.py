@@ -102,6 +102,26 @@ def test_a_topic_that_cannot_be_converted_is_named(tmp_path, capfd):
         assert [(each.topic, each.decode().data) for each in bag] == [("/text", "hi")]
 
 
+def test_each_topic_that_loses_messages_is_named(tmp_path, capfd):
+    with Writer(tmp_path / "odd.bag") as writer:
+        odd = writer.add_connection(
+            "/odd", "odd/msg/One", msgdef="no definition\n", md5sum="0" * 32
+        )
+        writer.write(odd, START, b"abc")
+        for name in ("/one", "/two"):
+            text = writer.add_connection(name, "std_msgs/msg/String", typestore=ROS1)
+            writer.write(text, START + 1, b"\2\0\0\0hi")
+            writer.write(text, START + 2, b"\3\0\0\0hi")
+    assert convert(tmp_path, "out", tmp_path / "odd.bag") == 1
+    said = capfd.readouterr().err
+    assert "left out: /odd (ros1 odd/msg/One)." in said
+    for name in ("/one", "/two"):
+        assert f"left out 1 message of {name}: " in said
+    assert said.count("its 6 bytes do not follow its definition: they end too early") == 2
+    with open_bag(tmp_path / "out") as bag:
+        assert [each.topic for each in bag] == ["/one", "/two"]
+
+
 def test_messages_without_bytes_do_not_end_a_conversion(tmp_path, capfd):
     with (tmp_path / "short.mcap").open("wb") as file:
         writer = McapWriter(file)

@@ -77,7 +77,8 @@ class MessageCopy:
         try:
             yield from bag.messages(topics, start_ns=start_ns, end_ns=end_ns - 1)
         except BagError as error:
-            self._damaged(error)
+            for each in (error, *error.others):
+                self._damaged(each)
 
 
 class _FileChunk(NamedTuple):

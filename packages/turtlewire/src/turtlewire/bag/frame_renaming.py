@@ -63,7 +63,7 @@ class FrameRenaming:
         except (InterfaceError, CdrError) as error:
             reason = str(error)
         except Exception as error:  # noqa: BLE001 - whatever malformed bytes lead to
-            reason = f"its bytes do not follow its definition: {error or type(error).__name__}"
+            reason = f"its bytes do not follow its definition: {str(error) or type(error).__name__}"
         self.problems.setdefault(
             message.topic, f"{message.topic}: its frames are not renamed: {reason}"
         )

@@ -226,6 +226,7 @@ class Bag:
             else:
                 yield from heapq.merge(*streams, key=attrgetter("log_time_ns"))
         if damage:
+            damage[0].others = tuple(damage[1:])
             raise damage[0]
 
     def columns(

@@ -178,7 +178,7 @@ class Evolution:
     def _fault(self, data: bytes, fault: Exception) -> CdrError:
         return CdrError(
             f"{self._name}: its {len(data)} bytes do not follow its definition: "
-            f"{fault or 'they end too early'}"
+            f"{str(fault) or 'they end too early'}"
         )
 
     # -- from their values to ours
