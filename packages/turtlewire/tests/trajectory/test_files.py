@@ -161,8 +161,9 @@ def test_of_repeated_stamps_the_first_pose_is_taken(tmp_path, name, rows):
     path = tmp_path / "walk"
     path.write_text("\n".join(rows))
     text = r"walk: 1 of 3 stamps repeat the previous one; the first pose is used$"
-    with pytest.warns(UserWarning, match=text):
+    with pytest.warns(UserWarning, match=text) as remarks:
         found = Trajectory.load(path, format=name)
+    assert [each.filename for each in remarks] == [__file__]
     assert found.positions[:, 0].tolist() == [0, 2]
     assert np.diff(found.stamps_ns).tolist() == [10**9 if name == "tum" else 1]
 

@@ -358,8 +358,10 @@ def test_trajectories_without_times_are_paired_by_their_number(tmp_path):
         with pytest.raises(ValueError, match=r"without times.* these have 50 and 40"):
             compare(untimed, other)
     for which, pair in (("reference", (untimed, walk)), ("estimate", (walk, untimed))):
-        with pytest.warns(UserWarning, match=f"the {which} has no times: its poses are paired"):
+        text = f"the {which} has no times: its poses are paired"
+        with pytest.warns(UserWarning, match=text) as remarks:
             found = compare(*pair, offset_ns=10**12)
+        assert [each.filename for each in remarks] == [__file__]
         assert found.ape().statistics.max < 1e-12
         assert found.reference.stamps_ns.tolist() == walk.stamps_ns.tolist()
 

@@ -227,7 +227,7 @@ def _paired_by_number(reference: Trajectory, estimate: Trajectory) -> tuple[Traj
         which = "estimate" if reference.timed else "reference"
         warnings.warn(
             f"the {which} has no times: its poses are paired with the others by their number",
-            stacklevel=3,
+            stacklevel=4,
         )
     if reference.timed:
         return reference, replace(estimate, stamps_ns=reference.stamps_ns)

@@ -114,7 +114,7 @@ class Trajectory:
 
         found = read_file(path, format, times)
         for remark in found.remarks:
-            warnings.warn(remark, stacklevel=2)
+            warnings.warn(remark, stacklevel=3)
         return cls(found.stamps_ns, found.poses, gaps=found.gaps, timed=found.timed)
 
     @classmethod

@@ -198,7 +198,7 @@ class Robot(Description):
         """Return the positions as an array, with a warning about those in degrees."""
         states = self._kinematics.joint_states(positions)
         if found := self._kinematics.in_degrees(states):
-            warnings.warn(found, stacklevel=3)
+            warnings.warn(found, stacklevel=4)
         return states
 
     def link_poses(self, positions: Positions) -> NDArray[np.float64]:
