@@ -15,6 +15,7 @@ from rosbag2_transport.progress import ProgressLine, time_text
 from rosbag2_transport.topic_filter import TopicFilter
 from turtlewire.bag.metadata import is_decodable, not_in_cdr
 from turtlewire.errors import BagError
+from turtlewire.msg.evolution import older_evolution
 from turtlewire.terminal.printable import printable
 from turtlewire.terminal.suggestion import did_you_mean
 from turtlewire.wording import counted
@@ -132,13 +133,19 @@ def _progress(done: int, expected: int, seconds: float) -> str:
 
 
 def _disputed_types(inputs: Sequence[Bag]) -> set[str]:
-    """Return the types that the bags define differently; an output has one definition of each."""
+    """Return the types that the bags define differently; an output has one definition of each.
+
+    Among them are types that a bag does not define and that an older ROS 2 defined differently.
+    """
     found: dict[str, str] = {}
     disputed = set()
     for bag in inputs:
-        for name, (_, text) in bag.definitions().items():
+        definitions = bag.definitions()
+        for name, (_, text) in definitions.items():
             if found.setdefault(name, text) != text:
                 disputed.add(name)
+        undefined = {each.type for each in bag.metadata.topics} - definitions.keys()
+        disputed |= {name for name in undefined if older_evolution(name)}
     return disputed
 
 

@@ -1,6 +1,8 @@
 """Converting bags of ROS 1 and of other definitions, with `rosbags` as the oracle; early ends."""
 
 import random
+import sqlite3
+from contextlib import closing
 
 import pytest
 from mcap.reader import make_reader
@@ -86,6 +88,20 @@ def test_all_types_of_ros2_through_both_storages(tmp_path, plugin):
         assert [each[:2] for each in found] == [each[:2] for each in expected]
         for (topic, _, message), (_, _, old) in zip(found, expected, strict=True):
             assert_contains(message, old, f"{name} {topic}")
+
+
+def test_messages_of_an_older_ros2_without_definitions_are_upgraded(tmp_path):
+    name = "sensor_msgs/msg/Range"
+    plugin = StoragePlugin.SQLITE3
+    with Writer2(tmp_path / "old", version=8, storage_plugin=plugin) as writer:
+        connection = writer.add_connection("/range", name, typestore=FOXY)
+        message = random_message(FOXY, name, random.Random(1))
+        writer.write(connection, START, bytes(FOXY.serialize_cdr(message, name)))
+    with closing(sqlite3.connect(tmp_path / "old" / "old.db3")) as database:
+        database.execute("DROP TABLE message_definitions")
+    assert convert(tmp_path, "out", tmp_path / "old") == 0
+    ((_, _, found),) = contents(tmp_path / "out")
+    assert (found.range, found.variance) == (message.range, 0.0)
 
 
 def test_a_topic_that_cannot_be_converted_is_named(tmp_path, capfd):
