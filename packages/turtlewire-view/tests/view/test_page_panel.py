@@ -441,6 +441,13 @@ def test_a_line_that_does_not_pass_stands_again_after_one_that_does(fake, open_v
 
 
 @pytest.mark.slow
+def test_a_bag_without_transforms_is_not_waited_for(fake, open_view):
+    fake.tell({"type": "hello", "source": {"kind": "bag", "name": "walk.mcap"}})
+    page = open_view(fake.url)
+    page.wait_for_selector("#no-frames:text('The bag has no transforms.')")
+
+
+@pytest.mark.slow
 def test_tools_that_publish_say_why_they_do_not_in_a_bag(fake, open_view):
     why = "You cannot publish into a bag."
     fake.tell({"type": "hello", "source": {"kind": "bag", "name": "walk.mcap"}})

@@ -107,6 +107,7 @@ function takeState(state) {
 function takeHello({ source }) {
   time.isBag = source.kind === "bag";
   tools?.refuse(time.isBag ? "You cannot publish into a bag." : "");
+  if (time.isBag) setText(byId("no-frames"), "The bag has no transforms.");
   setText(byId("source"), source.name);
   document.title = `${source.name} · turtlewire view`;
 }
