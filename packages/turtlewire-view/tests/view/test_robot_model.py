@@ -142,7 +142,7 @@ def test_a_description_that_is_none(text, line):
     assert (status.level, status.text[: len(line)]) == ("error", line)
 
 
-def test_what_urdfdom_forgives_is_said():
+def test_elements_that_urdfdom_forgives_are_named_in_the_status():
     text = "<robot name='x'>\n<link name='a'><inertial><mass value='b'/></inertial></link></robot>"
     content, status = described(text)
     assert content.header["links"]
