@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 _USAGE = """Usage: urdf_to_graphviz input.xml [OUTPUT]
   Will create either ${ROBOT_NAME}.gv & ${ROBOT_NAME}.pdf in CWD,
   or OUTPUT.gv & OUTPUT.pdf."""
+#: The sine of the pitch from which on urdfdom takes a rotation as upright.
+_UPRIGHT = 0.99999
 
 
 @program
@@ -76,12 +79,22 @@ def _dot_from_robot(robot: Robot) -> str:
 
 
 def _arrows(joint: Joint) -> Iterator[str]:
-    xyz, rpy = (
-        " ".join(f"{number:g}" for number in row) for row in (joint.origin.xyz, joint.origin.rpy)
-    )
+    rows = (joint.origin.xyz, _angles(joint.origin.quaternion))
+    xyz, rpy = (" ".join(f"{number:g}" for number in row) for row in rows)
     name = _quoted(joint.name)
     yield f'{_quoted(joint.parent)} -> {name} [label="xyz: {xyz} \\nrpy: {rpy}"]'
     yield f"{name} -> {_quoted(joint.child)}"
+
+
+def _angles(rotation: tuple[float, float, float, float]) -> tuple[float, float, float]:
+    """Return roll, pitch and yaw as urdfdom computes them of its quaternion, with its -0."""
+    x, y, z, w = rotation
+    sine = -2 * (x * z - w * y) / (x * x + y * y + z * z + w * w)
+    if abs(sine) >= _UPRIGHT:
+        side = math.copysign(1.0, sine)
+        return 0.0, side * math.pi / 2, 2 * math.atan2(-side * x, side * y)
+    roll = math.atan2(2 * (y * z + w * x), w * w - x * x - y * y + z * z)
+    return roll, math.asin(sine), math.atan2(2 * (x * y + w * z), w * w + x * x - y * y - z * z)
 
 
 def _in_depth(robot: Robot) -> Iterator[Joint]:

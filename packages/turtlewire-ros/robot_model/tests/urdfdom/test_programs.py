@@ -95,6 +95,20 @@ def test_drawings(capsys, monkeypatch, tmp_path, raft):
     assert (tmp_path / "raft.pdf").read_bytes().startswith(b"%PDF-1.4")
 
 
+@pytest.mark.parametrize(
+    ("rpy", "drawn"),
+    [("0 0 0", "0 -0 0"), ("4 0 0", "-2.28319 -0 0"), ("0 1.5707963 0", "0 1.5708 -0")],
+)
+def test_angles_are_drawn_as_by_debians_urdf_to_graphviz(monkeypatch, tmp_path, rpy, drawn):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "two.urdf").write_text(
+        '<robot name="two"><link name="a"/><link name="b"/><joint name="j" type="fixed">'
+        f'<parent link="a"/><child link="b"/><origin rpy="{rpy}"/></joint></robot>'
+    )
+    assert urdf_to_graphviz.main(["urdf_to_graphviz", "two.urdf"]) == 0
+    assert f'\\nrpy: {drawn}"]' in (tmp_path / "two.gv").read_text()
+
+
 def test_a_full_disk_is_reported_and_leaves_the_older_file(capsys, tmp_path, raft):
     path = tmp_path / "raft.gv"
     path.write_text("older")
