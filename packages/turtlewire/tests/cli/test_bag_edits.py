@@ -65,13 +65,15 @@ def test_sizes_of_real_bags(name):
 def test_damage_and_missing_definitions_are_shown(capsys, folder):
     with BagWriter("odd") as writer:
         writer.add_topic("/x", "no_msgs/msg/X\x1b", definition=("", ""), hash_of_type="")
+        writer.add_topic("/y", "", definition=("ros2msg", ""), hash_of_type="")
+        writer.add_topic("/empty", "std_msgs/msg/Empty")  # defined by no characters
         for number in range(300):
             writer.write("/x", bytes(5000), START + number)
     os.remove("odd/metadata.yaml")
     with open("odd/odd_0.mcap", "r+b") as file:
         file.truncate(1_000_000)
     done = run(capsys, "bag", "info", "odd")
-    assert "without definitions in the bag: no_msgs/msg/X\\x1b" in done.out
+    assert "without definitions in the bag: (no type), no_msgs/msg/X\\x1b\n" in done.out
     assert "damaged: odd/odd_0.mcap: " in done.out
 
 

@@ -6,10 +6,12 @@ import os
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from turtlewire.bag.definitions import ENCODING, definition_text
 from turtlewire.bag.latched import is_latched
 from turtlewire.bag.mcap_storage import McapStorage
 from turtlewire.bag.reader import open_bag
 from turtlewire.bag.storage import add_extent
+from turtlewire.errors import InterfaceError
 
 if TYPE_CHECKING:
     from turtlewire.bag.metadata import TopicInfo
@@ -121,9 +123,16 @@ def _described(topic: TopicInfo, definitions: dict[str, tuple[str, str]]) -> Top
         topic.type,
         topic.serialization_format or "cdr",
         latched=is_latched(topic),
-        # ROS 1 defines a type without fields by no characters.
-        has_definition=bool(text) or encoding == "ros1msg",
+        has_definition=bool(text) or encoding == "ros1msg" or _has_no_fields(topic.type, encoding),
     )
+
+
+def _has_no_fields(type_name: str, encoding: str) -> bool:
+    """Return True if a type, such as Empty, is defined by no characters."""
+    try:
+        return encoding == ENCODING and not definition_text(type_name)
+    except (InterfaceError, ValueError):  # unknown, or not the name of a type
+        return False
 
 
 def _measure(files: list[StorageFile], topics: dict[str, TopicOverview]) -> None:
