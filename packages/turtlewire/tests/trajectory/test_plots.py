@@ -97,6 +97,16 @@ def test_no_speed_is_made_of_a_gap():
     assert len({point.split(",")[1] for point in first + second}) == 1
 
 
+@pytest.mark.parametrize("kind", ["speeds", "angles"])
+def test_rounding_errors_of_a_constant_are_not_magnified(kind):
+    stamps = 1_700_000_000_000_000_000 + np.arange(50) * 100_000_000
+    poses = np.zeros((50, 7))
+    poses[:, 0], poses[:, 6] = 0.15033 * np.arange(50), 1.0
+    poses[::2, 3] = 1e-17
+    svg = Trajectory(stamps, poses).plot(kind).svg
+    assert max(len(text) for text in re.findall(r">(-?\d[\d.]*)</text>", svg)) <= 4
+
+
 def test_names_and_reference_are_in_the_legend():
     walk = random_walk(1)
     drawn = plot({"<slam>": walk, "b\x1b[31m": walk}, reference=walk)

@@ -225,7 +225,9 @@ class Panel:
 
 def _widened(low: float, high: float) -> tuple[float, float]:
     """Return the range with a margin, so that lines do not lie on the frame."""
-    margin = 0.04 * (high - low) or 0.5 + 0.001 * abs(low)
+    margin = 0.04 * (high - low)
+    if high - low <= 1e-10 * max(1.0, abs(low)):  # a constant, apart from rounding errors
+        margin = 0.5 + 0.001 * abs(low)
     return low - margin, high + margin
 
 
