@@ -366,6 +366,20 @@ def test_the_doctor_finds_faults_of_the_bag(capsys, bag):
     assert "made_0.mcap" in json.loads(done.out)["findings"][0]["text"]
 
 
+@pytest.mark.parametrize("topic", ["/tf", "/a"])
+def test_a_missing_file_is_named_with_its_remedy(capsys, tmp_path, monkeypatch, topic):
+    monkeypatch.chdir(tmp_path)
+    message = transform(0) if topic == "/tf" else msg.get_message("std_msgs/msg/String")()
+    with BagWriter("split", max_file_bytes=1000, chunk_bytes=100) as writer:
+        for number in range(30):
+            writer.write(topic, message, START + number)
+    os.remove("split/split_1.mcap")
+    text = "split/split_1.mcap: No such file or directory; the other files were read"
+    assert f"\ndamaged: {text}\n" in run(capsys, "bag", "info", "split").out
+    remedy = "Put the file back, or let `ros2 bag reindex split` forget it."
+    assert f"PROBLEM: {text}\n    {remedy}\n" in run(capsys, "doctor", "split").out
+
+
 def test_reindex_is_not_advised_for_a_file_of_ros1(capsys, tmp_path):
     path = tmp_path / "one.bag"
     write_ros1(path, get_typestore(Stores.ROS1_NOETIC), ["std_msgs/msg/Int8"])

@@ -278,8 +278,8 @@ class Bag:
         start, end = window(start_ns, end_ns)
         check_unit(self.metadata, start_ns=start, end_ns=end)
         wanted = self._wanted({topic}, None)
-        for path in self.metadata.paths:
-            self._learn_unknown_types(self.file(path), wanted)
+        for file in self.readable_files(self.metadata.paths, []):
+            self._learn_unknown_types(file, wanted)
         return read_columns(self, topic, fields, start, end)
 
     def readable_files(self, paths: list[str], damage: list[BagError]) -> list[StorageFile]:
@@ -289,8 +289,9 @@ class Bag:
             try:
                 files.append(self.file(path))
             except (BagError, OSError) as error:  # noqa: PERF203 - a bag has few files
-                self.complain(str(error))
-                damage.append(_without(error, self.path))
+                left_out = _without(error, self.path)
+                self.complain(str(left_out))
+                damage.append(left_out)
         return files
 
     def complain(self, problem: str) -> None:
@@ -446,6 +447,7 @@ def _without(error: BagError | OSError, bag: str) -> BagError:
     """Return the error of a file that is left out."""
     if isinstance(error, BagError):
         return error
-    left_out = BagError(f"{error}; the other files were read")
+    reason = f"{error.filename or bag}: {error.strerror or error}"
+    left_out = BagError(f"{reason}; the other files were read")
     left_out.with_hint(f"Put the file back, or let `ros2 bag reindex {bag}` forget it.")
     return left_out

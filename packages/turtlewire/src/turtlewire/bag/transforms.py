@@ -154,16 +154,12 @@ class _Reader:
             start_ns, end_ns = 0, _FOREVER
         for number, path in enumerate(self._bag.metadata.paths):
             self._files_read = number
-            try:
-                file = self._bag.file(path)
-            except (BagError, OSError) as error:
-                self._bag.complain(str(error))
-                continue
-            if self._bag.metadata.compression_mode == "MESSAGE" or not file.walk_transforms(
-                names, start_ns, end_ns, self
-            ):
-                self._read_rows(names, start_ns, end_ns)
-                return  # rows come in order of time over all files
+            for file in self._bag.readable_files([path], []):  # one, or none
+                if self._bag.metadata.compression_mode == "MESSAGE" or not file.walk_transforms(
+                    names, start_ns, end_ns, self
+                ):
+                    self._read_rows(names, start_ns, end_ns)
+                    return  # rows come in order of time over all files
 
     @property
     def messages(self) -> int:

@@ -73,9 +73,13 @@ def examine_bag(
         if foreign := not_in_cdr(bag.topics.values()):
             found.append(note(foreign, _NOT_CDR))
         found += _other_transforms(bag, path, {*moving, *fixed})
+        damage: list[BagError] = []
+        bag.readable_files(bag.metadata.paths, damage)
+        hints = {str(error): error.hint for error in damage}
         if (topics, static_topics) == ("/tf", "/tf_static") and not _has_tf(bag):
-            unread = [text for path in bag.metadata.paths for text in _unreadable(bag, path)]
-            found += [problem(text, _remedy_of_damage(path)) for text in (*bag.problems, *unread)]
+            found += [
+                problem(text, hints.get(text) or _remedy_of_damage(path)) for text in bag.problems
+            ]
             if not _tf_topics(bag):
                 found.append(note("The bag has no transforms.", _NO_TF))
             return found
@@ -84,7 +88,9 @@ def examine_bag(
         report = fill_buffer(buffer, path, topics=topics, static_topics=static_topics)
     except BagError as error:
         return [*found, problem(str(error), error.hint)]
-    found += [problem(text, _remedy_of_damage(path)) for text in report.problems]
+    found += [
+        problem(text, hints.get(text) or _remedy_of_damage(path)) for text in report.problems
+    ]
     traffic = _traffic(buffer, report, end_ns)
     traffic.written = {name: set() for name in _written_names(path, [*moving, *fixed])}
     return [*found, *_report_findings(report), *recorded_findings(traffic)]
@@ -117,15 +123,6 @@ def _remedy_of_damage(path: str) -> str:
     if path.endswith(".bag"):
         return f"{_INTACT}."
     return f"{_INTACT}; or `ros2 bag reindex FOLDER` makes a file that was cut off whole."
-
-
-def _unreadable(bag: Bag, path: str) -> list[str]:
-    """Return why a file cannot be opened; problems of readable files are in ``bag.problems``."""
-    try:
-        bag.file(path)
-    except (BagError, OSError) as error:
-        return [str(error)]
-    return []
 
 
 def _bag_findings(bag: Bag, path: str, fixed: list[str]) -> list[Finding]:
