@@ -88,9 +88,7 @@ def examine_bag(
         report = fill_buffer(buffer, path, topics=topics, static_topics=static_topics)
     except BagError as error:
         return [*found, problem(str(error), error.hint)]
-    found += [
-        problem(text, hints.get(text) or _remedy_of_damage(path)) for text in report.problems
-    ]
+    found += [problem(text, hints.get(text) or _remedy_of_damage(path)) for text in report.problems]
     traffic = _traffic(buffer, report, end_ns)
     traffic.written = {name: set() for name in _written_names(path, [*moving, *fixed])}
     return [*found, *_report_findings(report), *recorded_findings(traffic)]
