@@ -47,7 +47,7 @@ PARSERS.gltf = PARSERS.glb;
 function lacksNormals(geometry) {
   const { array } = geometry.attributes.normal;
   for (let at = 0; at < array.length; at += 3) {
-    if (!(Math.hypot(array[at], array[at + 1], array[at + 2]) > 0)) return true;
+    if (!array[at] && !array[at + 1] && !array[at + 2]) return true;
   }
   return false;
 }
