@@ -221,6 +221,18 @@ def test_kitti_names_the_file_with_the_times(capsys, bag, tmp_path):
     assert len((tmp_path / "out_times.txt").read_text().splitlines()) == 100
 
 
+def test_the_way_across_a_gap_has_no_speed(capsys, tmp_path):
+    stamps = [*range(10), *range(100, 110)]
+    poses = "".join(f"{stamp} {stamp % 100} 9 0 0 0 0 1\n" for stamp in stamps)
+    (tmp_path / "walk.tum").write_text(poses.replace("109 9 ", "109 10 "))
+    figures = json.loads(run(capsys, "trajectory", tmp_path / "walk.tum", "--json").out)
+    assert len(figures["gaps"]) == 1
+    assert (figures["mean_speed"], figures["max_speed"]) == (pytest.approx(19 / 18), 2.0)
+    done = run(capsys, "trajectory", tmp_path / "walk.tum", "--max-gap", "0.5")
+    assert done.status == 0  # each step is a gap
+    assert "speed" not in done.out
+
+
 def test_kitti_without_times_has_no_rate(capsys, tmp_path):
     poses = "".join(f"1 0 0 {x} 0 1 0 0 0 0 1 0\n" for x in range(3))
     (tmp_path / "walk.kitti").write_text(poses)

@@ -11,6 +11,7 @@ from turtlewire.cli.trajectory_sources import TrajectoryReader, TrajectorySource
 from turtlewire.terminal.parser import tf_topics
 from turtlewire.terminal.printable import printable
 from turtlewire.trajectory.files import kitti_times, write_file
+from turtlewire.trajectory.plots import runs_of
 from turtlewire.wording import counted
 
 if TYPE_CHECKING:
@@ -53,8 +54,9 @@ def run_trajectory(args: argparse.Namespace) -> int:
 
 def _figures(source: TrajectorySource, trajectory: Trajectory) -> dict[str, object]:
     # Without times, the stamps only number the poses.
-    count = len(trajectory) if trajectory.timed else 0
-    stamps, speeds = trajectory.stamps_ns[:count], trajectory.speeds[:count]
+    stamps = trajectory.stamps_ns[: len(trajectory) if trajectory.timed else 0]
+    runs = runs_of(trajectory) if len(stamps) else []
+    speeds = np.concatenate([[], *(trajectory.speeds[run.start : run.stop - 1] for run in runs)])
     return {
         "source": str(source),
         "frame": trajectory.target_frame,
@@ -87,6 +89,7 @@ def _lines(source: TrajectorySource, trajectory: Trajectory, written: list[str])
         rows["times"] = f"none; those of KITTI are read from {printable(kitti_times(source.path))}"
     if trajectory.timed and len(trajectory) > 1:
         rows["rate"] = f"{figures['rate']:.1f} Hz"
+    if figures["mean_speed"] is not None:
         rows["speed"] = f"{figures['mean_speed']:.3f} m/s, at most {figures['max_speed']:.3f} m/s"
     lines = [what, *(f"  {name:9} {value}" for name, value in rows.items())]
     for gap in trajectory.gaps[:_MOST_GAPS]:
