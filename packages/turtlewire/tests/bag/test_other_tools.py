@@ -304,3 +304,39 @@ def test_qos_that_rosbags_writes(tmp_path):
             Reliability.RELIABLE,
             Durability.TRANSIENT_LOCAL,
         )
+
+
+IDL = """\
+#include "other_msgs/msg/Spot.idl"
+module idl_msgs { module msg {
+  module Blob_Constants { const int8 LARGE = 5; };
+  struct Blob {
+    @unit (value="m") double size;
+    sequence<other_msgs::msg::Spot> spots;
+  };
+}; };
+"""
+SPOT = "module other_msgs { module msg { struct Spot { int32 x; string<4> name; }; }; };\n"
+
+
+@pytest.mark.parametrize("starts_with_heading", [True, False])
+def test_types_that_only_an_idl_file_defines(tmp_path, starts_with_heading):
+    owner = f"idl_{starts_with_heading}".lower()
+    name, line = f"{owner}/msg/Blob", "=" * 80
+    text = f"{IDL.replace('idl_msgs', owner)}\n{line}\nIDL: other_msgs/msg/Spot\n{SPOT}"
+    if starts_with_heading:
+        text = f"{line}\nIDL: {name}\n{text}"
+    path = tmp_path / "idl.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start("ros2", "test")
+        schema = writer.register_schema(name, "ros2idl", text.encode())
+        channel = writer.register_channel("/blob", "cdr", schema)
+        size, spot = b"\0\1\0\0" + bytes(6) + b"\x04\x40", b"\1\0\0\0\7\0\0\0\2\0\0\0a\0"
+        writer.add_message(channel, log_time=START, publish_time=START, data=size + spot)
+        writer.finish()
+    with open_bag(path) as bag:
+        (message,) = bag.messages()
+        blob = message.decode()
+    assert (blob.size, blob.LARGE) == (2.5, 5)
+    assert [(each.x, each.name) for each in blob.spots] == [(7, "a")]

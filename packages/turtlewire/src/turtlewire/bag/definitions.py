@@ -1,7 +1,8 @@
 """Definitions of message types in the format of bags: one text with all types that one needs.
 
 The text of the type itself comes first. Each type that it uses follows once, after a line of 80
-``=`` and a line ``MSG: package/Name``. Source: rosbag2 (encoding ``ros2msg``).
+``=`` and a line ``MSG: package/Name``. Source: rosbag2 (encoding ``ros2msg``). If only .idl files
+define a type, rosbag2 writes these, with lines ``IDL: package/msg/Name`` (``ros2idl``).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from turtlewire.bag.metadata import full_type_name
 from turtlewire.errors import InterfaceError
 from turtlewire.msg import type_hash
 from turtlewire.msg.definition import MessageDefinition, ServiceDefinition, nested_types
+from turtlewire.msg.idl import idl_to_text
 from turtlewire.msg.parser import parse_message
 from turtlewire.msg.registry import (
     define,
@@ -30,6 +32,7 @@ __all__ = [
     "ENCODING",
     "definition_text",
     "has_interface",
+    "in_ros2msg",
     "known_hash",
     "learn_types",
     "parse_definition",
@@ -42,7 +45,23 @@ _SPLIT = re.compile(rf"^{_SEPARATOR}\r?\n", re.MULTILINE)
 #: Texts of the types that only bags define.
 _learned: dict[str, str] = {}
 
-_HEADING = re.compile(r"^(?:MSG|SRV): *(\S+)[^\n]*\n?")
+_HEADING = re.compile(r"^(?:MSG|SRV|IDL): *(\S+)[^\n]*\n?")
+
+
+def in_ros2msg(type_name: str, encoding: str, text: str) -> tuple[str, str]:
+    """Translate a definition from ``ros2idl``, and return its encoding and text.
+
+    Another one, or one that cannot be translated, stays as it is.
+    """
+    if encoding != "ros2idl":
+        return encoding, text
+    try:
+        parts = dict(_parts(type_name, text))
+        first = idl_to_text(type_name, parts.pop(type_name))
+        others = [f"MSG: {name}\n{idl_to_text(name, part)}" for name, part in parts.items()]
+    except InterfaceError:
+        return encoding, text
+    return ENCODING, f"\n{_SEPARATOR}\n".join([first, *others])
 
 
 def parse_definition(type_name: str, text: str) -> dict[str, MessageDefinition]:
@@ -99,6 +118,8 @@ def learn_types(type_name: str, text: str) -> None:
 def _parts(type_name: str, text: str) -> list[tuple[str, str]]:
     """Return names and texts of the type and of those that it uses."""
     first, *others = _SPLIT.split(text)
+    if not first and others:  # in `ros2idl`, the type itself has a heading, too
+        first, *others = others
     heading = _HEADING.match(first)
     if heading:  # rosbag2 puts `SRV: name` before a service
         first = first[heading.end() :]

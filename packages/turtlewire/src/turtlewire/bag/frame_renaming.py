@@ -7,7 +7,7 @@ from contextlib import suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
-from turtlewire.bag.definitions import parse_definition
+from turtlewire.bag.definitions import ENCODING, in_ros2msg, parse_definition
 from turtlewire.bag.message import channel_of
 from turtlewire.bag.metadata import is_decodable
 from turtlewire.errors import BagError, CdrError, InterfaceError
@@ -113,8 +113,9 @@ def records_of(channel: BagChannel) -> WrittenRecords:
     topic, schema = channel.topic, channel.schema
     if not is_decodable(topic):
         raise InterfaceError(f"its messages are not in CDR but in '{topic.serialization_format}'")
-    text = schema.data.decode("utf-8", "replace") if schema.encoding == "ros2msg" else ""
-    return _records(topic.type, text)
+    text = schema.data.decode("utf-8", "replace")
+    encoding, text = in_ros2msg(topic.type, schema.encoding, text)
+    return _records(topic.type, text if encoding == ENCODING else "")
 
 
 @lru_cache(maxsize=64)

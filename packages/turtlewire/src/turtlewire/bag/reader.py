@@ -12,7 +12,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import unpack_file, unpacked
-from turtlewire.bag.definitions import has_interface, learn_types
+from turtlewire.bag.definitions import has_interface, in_ros2msg, learn_types
 from turtlewire.bag.files import joined, open_storage, overlapping, storage_files
 from turtlewire.bag.message_choice import (
     check_unit,
@@ -176,6 +176,7 @@ class Bag:
             InterfaceError: A definition cannot be parsed.
         """
         for name, (encoding, text) in self.definitions().items():
+            encoding, text = in_ros2msg(name, encoding, text)  # noqa: PLW2901
             if encoding == "ros2msg" and text:
                 learn_types(name, text)
 
@@ -322,7 +323,10 @@ class Bag:
         if not unknown:
             return
         for name, (encoding, text) in file.definitions().items():
-            if name in unknown and encoding == "ros2msg" and text:
+            if name not in unknown:
+                continue
+            encoding, text = in_ros2msg(name, encoding, text)  # noqa: PLW2901
+            if encoding == "ros2msg" and text:
                 try:
                     learn_types(name, text)
                 except InterfaceError as error:

@@ -6,7 +6,7 @@ import re
 from functools import lru_cache
 from typing import Any
 
-from turtlewire.bag.definitions import has_interface, learn_types, parse_definition
+from turtlewire.bag.definitions import has_interface, in_ros2msg, learn_types, parse_definition
 from turtlewire.errors import CdrError, InterfaceError
 from turtlewire.msg.cdr import deserialize, serialize
 from turtlewire.msg.classes import get_message
@@ -30,7 +30,7 @@ class WrittenType:
 
     Args:
         name: ``"sensor_msgs/msg/Range"``.
-        encoding: ``ros2msg``, ``ros1msg``; another if the definition cannot be read.
+        encoding: ``ros2msg``, ``ros2idl``, ``ros1msg``; another if the definition cannot be read.
         text: The definition with its dependencies; empty if the bag has none.
         is_ros1: Whether the messages are bytes of ROS 1 instead of CDR.
     """
@@ -38,6 +38,7 @@ class WrittenType:
     def __init__(self, name: str, encoding: str, text: str, *, is_ros1: bool = False) -> None:
         self.name = name
         self._is_ros1 = is_ros1
+        encoding, text = in_ros2msg(name, encoding, text)
         self._text = ros2_definition(text) if encoding == "ros1msg" else text
         self._is_readable = encoding in ("ros2msg", "ros1msg")
         #: An empty text of ROS 1 is that of an empty message; other writers also leave texts out.
