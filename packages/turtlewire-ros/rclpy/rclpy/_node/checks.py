@@ -35,6 +35,15 @@ def check_valid(context: Context, failure: str) -> None:
         raise RCLError(f"{failure}: {_INVALID}")
 
 
+def check_open(context: Context, what: str) -> None:
+    """Raise RCLError if a timer or guard condition is made in a context that is shut down."""
+    if not context.is_open():
+        raise RCLError(
+            f"failed to create {what}: the given context is not valid, either rcl_init() was not "
+            "called or rcl_shutdown() was called."
+        )
+
+
 @contextmanager
 def in_open_context(context: Context, what: str) -> Iterator[None]:
     """Let the block make an endpoint if the context is open.
@@ -42,7 +51,8 @@ def in_open_context(context: Context, what: str) -> Iterator[None]:
     Raises:
         RCLError: The context is shut down, possibly by another thread during the block.
     """
-    closed = RCLError(f"could not create {what}: {_INVALID}")
+    failed = "Failed" if what in {"publisher", "subscription"} else "failed"  # as in ROS 2
+    closed = RCLError(f"{failed} to create {what}: {_INVALID}")
     if not context.is_open():
         raise closed
     try:
