@@ -72,6 +72,41 @@ CHANGES = {
             "lyrical": "AttributeError: 'RcutilsLogger' object has no attribute 'warn'",
         },
     ),
+    "arguments of a QoSProfile": (
+        (
+            "print(outcome(lambda: QoSProfile(1, 5).depth))\n"
+            "print(outcome(lambda: QoSProfile(depth=5, reliability=None).reliability))\n"
+            "print(outcome(lambda: QoSProfile(depth=5, foo=1)))"
+        ),
+        {
+            "jazzy": (
+                "TypeError: QoSProfile.__init__() takes 1 positional argument but 3 were given\n"
+                "AssertionError: expected an object of type int, got None\n"
+                "AssertionError: Invalid arguments passed to constructor: dict_keys(['depth', "
+                "'foo'])"
+            ),
+            "kilted": (
+                "5 []\n1 []\n"
+                "TypeError: QoSProfile.__init__() got an unexpected keyword argument 'foo'"
+            ),
+            "lyrical": (
+                "5 []\n1 []\n"
+                "TypeError: QoSProfile.__init__() got an unexpected keyword argument 'foo'"
+            ),
+        },
+    ),
+    "names of policies in rmw": (
+        "from rclpy.qos import LivelinessPolicy, QoSHistoryPolicy\n"
+        "print(outcome(lambda: QoSHistoryPolicy.RMW_QOS_POLICY_HISTORY_KEEP_LAST.name))\n"
+        "print(hasattr(LivelinessPolicy, 'RMW_QOS_POLICY_DURABILITY_UNKNOWN'))",
+        {
+            "jazzy": (
+                "KEEP_LAST ['UserWarning: HistoryPolicy.RMW_QOS_POLICY_HISTORY_KEEP_LAST is "
+                "deprecated. Use HistoryPolicy.KEEP_LAST instead.']\nTrue"
+            ),
+            "lyrical": ("AttributeError: RMW_QOS_POLICY_HISTORY_KEEP_LAST\nFalse"),
+        },
+    ),
     "a call that takes too long": (
         (
             "client = node.create_client(AddTwoInts, 'add')\n"
@@ -222,7 +257,7 @@ print(context.ok())
         "1499999999",
         "True",
         "ValueError: Can't multiply duration with nan",
-        "ValueError: Can't multiply duration with -inf",
+        "ValueError: Can't multiply duration with nan",
         *["TypeError"] * 3,
         "True ROS_TIME",
         "True",

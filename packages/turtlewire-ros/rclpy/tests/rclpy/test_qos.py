@@ -74,6 +74,12 @@ def test_short_keys():
     )
 
 
+def test_the_best_available_durations():
+    best = qos_profile_best_available
+    assert best.deadline == qos.DeadlineBestAvailable
+    assert best.liveliness_lease_duration == qos.LivelinessLeaseDurationeBestAvailable
+
+
 def test_durations_and_numbers_reach_the_wire():
     assert QoSProfile(depth=10).to_wire() == wire_qos.QoS()
     made = profile(
