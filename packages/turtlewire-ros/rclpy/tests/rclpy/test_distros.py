@@ -96,9 +96,11 @@ CHANGES = {
         },
     ),
     "names of policies in rmw": (
-        "from rclpy.qos import LivelinessPolicy, QoSHistoryPolicy\n"
-        "print(outcome(lambda: QoSHistoryPolicy.RMW_QOS_POLICY_HISTORY_KEEP_LAST.name))\n"
-        "print(hasattr(LivelinessPolicy, 'RMW_QOS_POLICY_DURABILITY_UNKNOWN'))",
+        (
+            "from rclpy.qos import LivelinessPolicy, QoSHistoryPolicy\n"
+            "print(outcome(lambda: QoSHistoryPolicy.RMW_QOS_POLICY_HISTORY_KEEP_LAST.name))\n"
+            "print(hasattr(LivelinessPolicy, 'RMW_QOS_POLICY_DURABILITY_UNKNOWN'))"
+        ),
         {
             "jazzy": (
                 "KEEP_LAST ['UserWarning: HistoryPolicy.RMW_QOS_POLICY_HISTORY_KEEP_LAST is "
