@@ -36,7 +36,8 @@ def interface_meant(name: str, kind: str = "") -> str:
     """`did_you_mean` for an interface; ``kind`` limits the names to msg, srv or action.
 
     A name without a package, as ``Twist`` or misspelt ``Twits``, means all interfaces that are
-    called so. If the package is missing and its source is known, the line says what to do.
+    called so. If the package is missing and its source is known, the line says what to do; also if
+    only the definition of the interface is found.
     """
     import difflib
 
@@ -45,6 +46,12 @@ def interface_meant(name: str, kind: str = "") -> str:
     if line := source_meant(name):
         return line
     known = interface_names(kind)
+    if name in known:
+        package = name.partition("/")[0]
+        return (
+            f"\n{name} is defined, but Python cannot import its package {package}: source the "
+            "setup file of the workspace in which it was built"
+        )
     short = {full: full.rpartition("/")[2] for full in known}
     if "/" in name:
         return did_you_mean(name, known)
