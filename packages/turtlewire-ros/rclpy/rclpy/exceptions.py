@@ -176,7 +176,9 @@ class ParameterUninitializedException(ParameterException):
     """A parameter that was declared with a type alone is read before it has a value."""
 
     def __init__(self, parameter_name: Any, *args: object) -> None:
-        super().__init__("The parameter is not initialized", parameter_name, *args)
+        super().__init__(
+            f"The parameter '{parameter_name}' is not initialized", parameter_name, *args
+        )
 
 
 class TimeSourceChangedError(Exception):

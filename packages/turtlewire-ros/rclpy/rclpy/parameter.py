@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from enum import Enum
+from enum import Enum, IntEnum
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
+
+from turtlewire.distro import KILTED, since
+
+from .impl.reexports import reexports
 
 if TYPE_CHECKING:
     import rcl_interfaces.msg
+
+__getattr__ = reexports(__name__, {"rcl_interfaces.msg": ("ParameterType", "ParameterValue")})
 
 PARAMETER_SEPARATOR_STRING = "."
 
@@ -30,7 +37,9 @@ class Parameter:
         ValueError: Type and value do not agree.
     """
 
-    class Type(Enum):
+    __class_getitem__ = classmethod(GenericAlias)
+
+    class Type(IntEnum if since(KILTED) else Enum):  # type: ignore[misc]  # mypy: not dynamic
         """The types, with the numbers of ``rcl_interfaces/msg/ParameterType``."""
 
         NOT_SET = 0
@@ -130,7 +139,8 @@ class Parameter:
         return ParameterMsg(name=self._name, value=self.get_parameter_value())
 
     def __repr__(self) -> str:
-        return f"Parameter(name={self._name!r}, type_={self._type_}, value={self._value!r})"
+        type_ = f"Type.{self._type_.name}"
+        return f"Parameter(name={self._name!r}, type_={type_}, value={self._value!r})"
 
 
 # bool comes before int, because it is a subclass of int.

@@ -20,12 +20,18 @@ if TYPE_CHECKING:
 _INVALID = "rcl node's context is invalid"
 
 
-def check_callable(callback: Any) -> None:
-    """Make sure that a callback can be called; TypeError with a hint if it cannot."""
+def check_callable(callback: Any, *words: object) -> None:
+    """Make sure that a callback can be called; TypeError with a hint if it cannot.
+
+    Args:
+        callback: The callback.
+        *words: Arguments of the error, if they are not Python's.
+    """
     if not callable(callback):
-        error = TypeError(f"'{type(callback).__name__}' object is not callable")
+        words = words or (f"'{type(callback).__name__}' object is not callable",)
         raise with_hint(
-            error, "Pass the function itself (self.callback), not what it returns (self.callback())"
+            TypeError(*words),
+            "Pass the function itself (self.callback), not what it returns (self.callback())",
         )
 
 

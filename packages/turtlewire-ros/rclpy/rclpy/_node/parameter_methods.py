@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from rclpy._node.checks import check_callable
+
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, SetParametersResult
     from rclpy._node.parameters import NodeParameters
     from rclpy.parameter import Parameter
+
+_NOT_CALLABLE = "Callback must be callable, got {}"  # ROS 2 does not fill it in
 
 
 class ParameterMethods:
@@ -152,11 +156,13 @@ class ParameterMethods:
     def add_on_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], SetParametersResult]
     ) -> None:
-        """Let ``callback`` accept or reject new values."""
+        """Let ``callback`` accept or reject new values; TypeError if it is not callable."""
+        check_callable(callback, _NOT_CALLABLE, type(callback))
         self._parameters.callbacks.deciding.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
-        """Call ``callback`` with parameters that were set."""
+        """Call ``callback`` with parameters that were set; TypeError if it is not callable."""
+        check_callable(callback, _NOT_CALLABLE, type(callback))
         self._parameters.callbacks.after.insert(0, callback)
 
     def remove_pre_set_parameters_callback(

@@ -95,6 +95,27 @@ CHANGES = {
             ),
         },
     ),
+    "types of parameters": (
+        (
+            "from rclpy.parameter import Parameter\n"
+            "node.declare_parameter('speed', 1.5)\n"
+            "print(Parameter.Type.INTEGER == 2, Parameter('speed', value=2))\n"
+            "print(node.set_parameters([Parameter('speed', value='x')])[0].reason)\n"
+            "print(outcome(lambda: Parameter('speed', Parameter.Type.INTEGER, 'x')))"
+        ),
+        {
+            "jazzy": (
+                "False Parameter(name='speed', type_=Type.INTEGER, value=2)\n"
+                "Wrong parameter type, expected 'Type.DOUBLE' got 'Type.STRING'\n"
+                "ValueError: Type 'Type.INTEGER' and value 'x' do not agree"
+            ),
+            "kilted": (
+                "True Parameter(name='speed', type_=Type.INTEGER, value=2)\n"
+                "Wrong parameter type, expected '3' got '4'\n"
+                "ValueError: Type '2' and value 'x' do not agree"
+            ),
+        },
+    ),
     "names of policies in rmw": (
         (
             "from rclpy.qos import LivelinessPolicy, QoSHistoryPolicy\n"

@@ -104,7 +104,8 @@ def test_several_declarations_with_a_namespace(parameters):
 def test_a_type_alone_has_to_be_set_before_it_is_read(parameters):
     assert parameters.declare_parameter("a", Type.DOUBLE).type_ is Type.NOT_SET
     with pytest.raises(
-        exceptions.ParameterUninitializedException, match=r"^The parameter is not initialized: a$"
+        exceptions.ParameterUninitializedException,
+        match=r"^The parameter 'a' is not initialized: a$",
     ):
         parameters.get_parameter("a")
     assert parameters.get_parameter_or("a", Parameter("a", value=7)).value == 7
@@ -627,3 +628,10 @@ def test_they_are_read_as_a_dictionary(parameters):
     assert parameters.get("none") is None
     with pytest.raises(KeyError):
         parameters["none"]
+
+
+@pytest.mark.parametrize("step", ["on_set", "post_set"])
+def test_a_callback_that_is_not_callable(node, step):
+    with pytest.raises(TypeError) as caught:
+        getattr(node, f"add_{step}_parameters_callback")(None)
+    assert caught.value.args == ("Callback must be callable, got {}", type(None))
