@@ -297,6 +297,8 @@ def _callback_type(callback: Callable[..., Any], failure: str) -> BaseSubscripti
         signature = inspect.signature(callback)
     except ValueError:  # a built-in function without one, such as `print` in Python 3.10
         return BaseSubscription.CallbackType.MessageOnly
+    except TypeError:  # not callable at all
+        raise RuntimeError(failure) from None
     for count in (1, 2):
         try:
             signature.bind(*(None,) * count)

@@ -129,7 +129,7 @@ class Time:
                     nanoseconds=self._nanoseconds - other.nanoseconds, clock_type=self._clock_type
                 )
             except ValueError as error:
-                raise ValueError("Subtraction leads to negative time") from error
+                raise ValueError("Subtraction leads to negative time.") from error
         return NotImplemented
 
     def _comparable(self, other: object) -> bool:

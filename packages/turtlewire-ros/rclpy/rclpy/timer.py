@@ -11,6 +11,7 @@ from turtlewire.distro import LYRICAL, since
 from turtlewire.wake_up import WakeUp
 
 from ._execution.entity import ClosingEntity, EntityHost, Work
+from ._rclpy_pybind11 import RCLError
 from .clock_type import ClockType
 from .exceptions import ROSInterruptException
 from .impl.hints import with_hint
@@ -83,7 +84,7 @@ class BaseTimer(ClosingEntity):
         from .utilities import get_default_context
 
         if timer_period_ns < 0:
-            raise ValueError("timer period must be non-negative")
+            raise RCLError("failed to create timer: timer period must be non-negative")
         super().__init__(None)
         self._on_destroy = on_destroy
         self.callback = callback

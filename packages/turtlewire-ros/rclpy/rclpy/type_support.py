@@ -130,7 +130,8 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
     check_for_type_support(msg_type)
     if not issubclass(msg_type, msg.Message):
         raise RuntimeError(  # noqa: TRY004 - ROS 2's
-            "The message type provided is not valid, this might be a service or action"
+            f"The message type provided is not valid ({msg_type}),"
+            " this might be a service or action"
         )
 
 
@@ -144,7 +145,8 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
     check_for_type_support(srv_type)
     if not issubclass(srv_type, msg.Service):
         raise RuntimeError(  # noqa: TRY004 - likewise
-            "The service type provided is not valid, this might be a message or action"
+            f"The service type provided is not valid ({srv_type}),"
+            " this might be a message or action"
         )
 
 

@@ -125,7 +125,10 @@ class NameResolver:
         fault = names.validate_topic_name(name)
         if fault is not None:
             raise error(name, fault.message, fault.invalid_index)
-        expanded = names.expand_topic_name(name, self._core.name, self._core.namespace)
+        try:
+            expanded = names.expand_topic_name(name, self._core.name, self._core.namespace)
+        except ValueError as unknown:
+            raise ValueError(f"topic name '{name}' is invalid: {unknown}") from None
         # Substitutions can make a valid name invalid; the error then shows the expanded name.
         fault = names.validate_full_topic_name(expanded)
         if fault is not None:

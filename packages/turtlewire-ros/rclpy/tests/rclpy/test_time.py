@@ -101,7 +101,7 @@ def test_bad_durations():
 
 
 def test_time_before_zero():
-    with pytest.raises(ValueError, match=r"^Subtraction leads to negative time$"):
+    with pytest.raises(ValueError, match=r"^Subtraction leads to negative time\.$"):
         Time(nanoseconds=1) - Duration(nanoseconds=2)
 
 

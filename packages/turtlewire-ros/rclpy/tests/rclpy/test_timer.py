@@ -6,6 +6,7 @@ import time
 import pytest
 
 from rclpy._execution.timer_queue import TimerQueue
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ClockType, ROSClock
 from rclpy.exceptions import InvalidHandle, ROSInterruptException
@@ -119,7 +120,7 @@ def test_a_destroyed_timer_raises(node):
 
 
 def test_a_period_must_not_be_negative(node):
-    with pytest.raises(ValueError, match="timer period must be non-negative"):
+    with pytest.raises(RCLError, match="failed to create timer: timer period must be non-negative"):
         node.create_timer(-1.0, None)
 
 
