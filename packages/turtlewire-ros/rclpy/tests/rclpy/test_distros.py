@@ -95,6 +95,22 @@ CHANGES = {
             ),
         },
     ),
+    "a transition that the state does not have": (
+        (
+            "from rclpy.lifecycle import LifecycleNode\n"
+            "managed = LifecycleNode('managed')\n"
+            "managed.get_logger().error = print\n"
+            "print(outcome(managed.trigger_activate).split(':')[0])\n"
+            "print(managed.trigger_configure())"
+        ),
+        {
+            "jazzy": "RCLError\nTransitionCallbackReturn.SUCCESS",
+            "kilted": (
+                "Unable to start transition 3 from current state (1, 'unconfigured')\n"
+                "TransitionCallbackReturn.ERROR []\nTransitionCallbackReturn.SUCCESS"
+            ),
+        },
+    ),
     "types of parameters": (
         (
             "from rclpy.parameter import Parameter\n"
