@@ -111,6 +111,24 @@ CHANGES = {
             ),
         },
     ),
+    "a context in a with statement": (
+        (
+            "from rclpy.context import Context\n"
+            "ready, fresh = Context(), Context()\n"
+            "ready.init(args=[])\n"
+            "with ready: print(ready.ok())\n"
+            "print(ready.ok())\n"
+            "print(outcome(lambda: fresh.__enter__().ok()))"
+        ),
+        {
+            "jazzy": "True\nFalse\nTrue []",
+            "kilted": (
+                "True\nFalse\nTrue ['UserWarning: init() must be called on a Context before using "
+                "it in a Python context manager. Calling init() with no arguments, this usage is "
+                "deprecated']"
+            ),
+        },
+    ),
     "types of parameters": (
         (
             "from rclpy.parameter import Parameter\n"
