@@ -158,7 +158,9 @@ class Context:
         return self._valid or self.ended_by_signal
 
     def get_domain_id(self) -> int:
-        """Return the domain it is in."""
+        """Return the domain it is in; RuntimeError before :meth:`init`."""
+        if self._wire is None:
+            raise RuntimeError("Context must be initialized before it can have a domain id")
         return self.wire.domain_id
 
     @property

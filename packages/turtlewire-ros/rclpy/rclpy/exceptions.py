@@ -44,8 +44,8 @@ class NotInitializedException(Exception):
     """Something needs ``rclpy.init()`` first."""
 
     def __init__(self, message: str | None = None) -> None:
-        text = "rclpy.init() has not been called"
-        super().__init__(f"{text}. msg:{message}" if message else text)
+        text = "rclpy.init() has not been called."
+        super().__init__(f"{text} msg:{message}" if message else text)
 
 
 class NoTypeSupportImportedException(Exception):

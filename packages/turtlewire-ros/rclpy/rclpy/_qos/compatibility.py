@@ -85,53 +85,56 @@ def _errors(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
 
 
 def _warnings(publisher: QoSProfile, subscription: QoSProfile) -> list[str]:
-    reliability, durability = (
-        (publisher.reliability, subscription.reliability),
-        (publisher.durability, subscription.durability),
-    )
-    liveliness = (publisher.liveliness, subscription.liveliness)
+    """Return a warning for each policy that the middleware will settle."""
     findings = [
         _open(
-            "reliability", *reliability, ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE
+            (publisher.reliability, subscription.reliability),
+            (ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE),
+            "Publisher reliability is {} and subscription reliability is {}",
+            "Reliable subscription, but publisher is {}",
+            "Best effort publisher, but subscription is {}",
         ),
         _open(
-            # ROS 2's own spelling.
-            "durabilty",
-            *durability,
-            DurabilityPolicy.VOLATILE,
-            DurabilityPolicy.TRANSIENT_LOCAL,
+            (publisher.durability, subscription.durability),
+            (DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL),
+            "Publisher durabilty is {} and subscription durability is {}",  # ROS 2's spelling
+            "Transient local subscription, but publisher is {}",
+            "Volatile publisher, but subscription is {}",
+        ),
+        _open(
+            (publisher.liveliness, subscription.liveliness),
+            (LivelinessPolicy.AUTOMATIC, LivelinessPolicy.MANUAL_BY_TOPIC),
+            "Publisher liveliness is {} and subscription liveliness is {}",
+            "Subscription's liveliness is manual by topic, but publisher's is {}",
+            "Publisher's liveliness is automatic, but subscription's is {}",
         ),
     ]
-    # Both are open in every preset, and then the middleware settles on the same value.
-    if not all(map(_is_open, liveliness)):
-        findings.append(
-            _open(
-                "liveliness",
-                *liveliness,
-                LivelinessPolicy.AUTOMATIC,
-                LivelinessPolicy.MANUAL_BY_TOPIC,
-            )
-        )
     return [finding for finding in findings if finding]
 
 
 def _open(
-    policy: str,
-    offered: QoSPolicyEnum,
-    requested: QoSPolicyEnum,
-    weakest_offer: QoSPolicyEnum,
-    strictest_request: QoSPolicyEnum,
+    ends: tuple[QoSPolicyEnum, QoSPolicyEnum],
+    limits: tuple[QoSPolicyEnum, QoSPolicyEnum],
+    both_open: str,
+    open_offer: str,
+    open_request: str,
 ) -> str:
-    """Return the warning for a policy that the middleware will settle."""
+    """Return the warning for one policy, or an empty string.
+
+    Args:
+        ends: What is offered and requested.
+        limits: The weakest offer and the strictest request.
+        both_open: The text if both ends leave the value open.
+        open_offer: The text if the publisher does, and the request is the strictest.
+        open_request: The text if the subscription does, and the offer is the weakest.
+    """
+    (offered, requested), (weakest, strictest) = ends, limits
     if _is_open(offered) and _is_open(requested):
-        return (
-            f"Publisher {policy} is {_text(offered)} and subscription {policy} is "
-            f"{_text(requested)}"
-        )
-    if _is_open(offered) and requested == strictest_request:
-        return f"{_text(requested).capitalize()} subscription, but publisher is {_text(offered)}"
-    if offered == weakest_offer and _is_open(requested):
-        return f"{_text(offered).capitalize()} publisher, but subscription is {_text(requested)}"
+        return both_open.format(offered.short_key, requested.short_key)
+    if _is_open(offered) and requested == strictest:
+        return open_offer.format(offered.short_key)
+    if offered == weakest and _is_open(requested):
+        return open_request.format(requested.short_key)
     return ""
 
 
@@ -141,7 +144,3 @@ def _is_limited(duration: Duration) -> bool:
 
 def _is_open(value: QoSPolicyEnum) -> bool:
     return value.name in {"SYSTEM_DEFAULT", "UNKNOWN"}
-
-
-def _text(value: QoSPolicyEnum) -> str:
-    return value.short_key.replace("_", " ")

@@ -236,7 +236,7 @@ def test_wrong_overrides(context):
     )
     with pytest.raises(
         InvalidQosOverridesError,
-        match=r"^Provided QoS overrides for publisher `/c`, are not valid: 3$",
+        match=r"^Provided QoS overrides for publisher `/c` with id `None`, are not valid: 3$",
     ):
         node.create_publisher(String, "c", 3, qos_overriding_options=refusing)
 

@@ -485,3 +485,8 @@ print(get_logger("a").get_effective_level().name)
 """
     done = run_python(program, timeout=60)
     assert done.stdout.split() == ["0", "INFO", "2", "DEBUG", "2", "1", "0", "WARN"]
+
+
+def test_a_context_has_no_domain_before_init():
+    with pytest.raises(RuntimeError, match="must be initialized before it can have a domain id"):
+        Context().get_domain_id()

@@ -279,7 +279,7 @@ def test_a_message_class_of_another_installation(node):
 @pytest.mark.parametrize(
     ("error", "text"),
     [
-        (exceptions.NotInitializedException(), "rclpy.init() has not been called"),
+        (exceptions.NotInitializedException(), "rclpy.init() has not been called."),
         (exceptions.NoTypeSupportImportedException(), "no type_support imported"),
         (exceptions.ROSInterruptException(), "rclpy.shutdown() has been called"),
     ],

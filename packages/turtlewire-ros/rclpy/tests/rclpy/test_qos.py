@@ -198,13 +198,13 @@ def test_text():
             {"reliability": S},
             {},
             "WARNING",
-            "WARNING: Reliable subscription, but publisher is system default;",
+            "WARNING: Reliable subscription, but publisher is system_default;",
         ),
         (
             {"reliability": B},
             {"reliability": S},
             "WARNING",
-            "WARNING: Best effort publisher, but subscription is system default;",
+            "WARNING: Best effort publisher, but subscription is system_default;",
         ),
         ({"reliability": S}, {"reliability": B}, "OK", ""),
     ],
@@ -212,7 +212,8 @@ def test_text():
 @needs_cyclone_dds
 def test_compatibility(publisher, subscription, level, reason, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
-    answer = qos_check_compatible(profile(**publisher), profile(**subscription))
+    alive = {"liveliness": LivelinessPolicy.AUTOMATIC}
+    answer = qos_check_compatible(profile(**alive | publisher), profile(**alive | subscription))
     assert answer == (QoSCompatibility[level], reason)
     assert answer.compatibility is QoSCompatibility[level]
 
@@ -237,9 +238,18 @@ def test_two_system_defaults_are_left_open(monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
     level, reason = qos_check_compatible(qos_profile_system_default, qos_profile_system_default)
     assert level is QoSCompatibility.WARNING
-    assert reason.startswith(
-        "WARNING: Publisher reliability is system default and subscription reliability is system "
-        "default;"
+    assert reason == (
+        "WARNING: Publisher reliability is system_default and subscription reliability is "
+        "system_default;WARNING: Publisher durabilty is system_default and subscription "
+        "durability is system_default;WARNING: Publisher liveliness is system_default and "
+        "subscription liveliness is system_default;"
+    )
+    level, reason = qos_check_compatible(
+        profile(liveliness=LivelinessPolicy.AUTOMATIC),
+        profile(liveliness=LivelinessPolicy.UNKNOWN),
+    )
+    assert reason == (
+        "WARNING: Publisher's liveliness is automatic, but subscription's is unknown;"
     )
 
 
