@@ -149,11 +149,10 @@ class InvalidParameterTypeException(ParameterException):
     is_of_command_line = False
 
     def __init__(self, desired_parameter: Parameter, expected_type: str) -> None:
-        # One line with all facts, unlike the base's "text: name".
-        Exception.__init__(
-            self,
+        super().__init__(
             f"Trying to set parameter '{desired_parameter.name}' to '{desired_parameter.value}'"
             f" of type '{desired_parameter.type_.name}', expecting type '{expected_type}'",
+            desired_parameter.name,
         )
 
 

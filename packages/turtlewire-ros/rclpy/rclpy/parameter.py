@@ -16,6 +16,11 @@ if TYPE_CHECKING:
 
 __getattr__ = reexports(__name__, {"rcl_interfaces.msg": ("ParameterType", "ParameterValue")})
 
+if TYPE_CHECKING or not since(KILTED):  # noqa: SIM108 - mypy needs an alias
+    _TypeBase = Enum
+else:
+    _TypeBase = IntEnum
+
 PARAMETER_SEPARATOR_STRING = "."
 
 #: What a parameter can hold, for annotations.
@@ -37,9 +42,10 @@ class Parameter:
         ValueError: Type and value do not agree.
     """
 
-    __class_getitem__ = classmethod(GenericAlias)
+    if not TYPE_CHECKING:
+        __class_getitem__ = classmethod(GenericAlias)
 
-    class Type(IntEnum if since(KILTED) else Enum):  # type: ignore[misc]  # mypy: not dynamic
+    class Type(_TypeBase):
         """The types, with the numbers of ``rcl_interfaces/msg/ParameterType``."""
 
         NOT_SET = 0

@@ -227,7 +227,10 @@ def test_kilted_refuses_a_quaternion_that_its_listeners_reject(monkeypatch, caps
         ("-1.0", "buffer_size is -1.0; it can be 0 to 1000000000 seconds"),
         (
             "10",
-            "expecting type 'DOUBLE'\nYAML reads a double with a point in it: -p buffer_size:=10.0",
+            (
+                "expecting type 'DOUBLE': buffer_size\n"
+                "YAML reads a double with a point in it: -p buffer_size:=10.0"
+            ),
         ),
     ],
 )

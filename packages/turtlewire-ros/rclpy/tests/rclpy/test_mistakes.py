@@ -199,7 +199,7 @@ def test_a_command_line_that_gives_another_type_is_told_in_one_line(program):
     first, *rest = errors.strip().splitlines()
     assert first == (
         "rclpy.exceptions.InvalidParameterTypeException: Trying to set parameter 'speed' to 'fast'"
-        " of type 'STRING', expecting type 'DOUBLE'"
+        " of type 'STRING', expecting type 'DOUBLE': speed"
     )
     assert rest == []
 

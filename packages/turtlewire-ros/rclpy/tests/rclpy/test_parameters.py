@@ -211,7 +211,7 @@ def test_an_override_of_another_type():
         parameters.declare_parameter("a", "turtle1")
     assert (
         str(caught.value)
-        == "Trying to set parameter 'a' to '2' of type 'INTEGER', expecting type 'STRING'"
+        == "Trying to set parameter 'a' to '2' of type 'INTEGER', expecting type 'STRING': a"
     )
     assert caught.value.hint == "YAML reads a string in quotes: -p a:='\"2\"'"
     with pytest.raises(exceptions.InvalidParameterTypeException) as caught:
