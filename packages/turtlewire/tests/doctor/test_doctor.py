@@ -546,6 +546,16 @@ def test_a_real_ros_mixed_into_the_path(tmp_path):
     assert not any(finding.is_problem for finding in setup_findings({}, path[:1]))
 
 
+@pytest.mark.parametrize(
+    ("asked", "remedy"), [("", "Install g++"), ("python", "Unset TURTLEWIRE_CORE")]
+)
+def test_the_plain_core_is_named_with_its_cause(monkeypatch, asked, remedy):
+    monkeypatch.setattr("turtlewire.tf.buffer.CORE", "python")
+    found = setup_findings({"TURTLEWIRE_CORE": asked}, [])[0]
+    assert found.text.startswith("The plain-Python core is in use")
+    assert found.remedy.startswith(remedy)
+
+
 def test_another_distribution_is_named():
     assert "ROS_DISTRO is 'humble', but turtlewire uses the names and texts of jazzy." in texts(
         setup_findings({"ROS_DISTRO": "humble"}, [])

@@ -29,6 +29,7 @@ _PLAIN_CORE = "The plain-Python core is in use; lookups are many times slower."
 _INSTALL_COMPILER = (
     "Install g++ and the Python headers (Debian: g++ python3-dev), then install turtlewire again."
 )
+_UNSET_CORE = "Unset TURTLEWIRE_CORE, which chooses it."
 _OTHER_LIBRARY = "Set CYCLONEDDS_HOME to the prefix of another library, or unset it."
 _NO_WHEEL = "You need not do anything: it reaches the same robots."
 _INSTALL_LIBDDSC = (
@@ -61,7 +62,8 @@ def setup_findings(environment: Mapping[str, str], path: Iterable[str]) -> list[
     """
     from turtlewire.tf.buffer import CORE
 
-    found = [note(_PLAIN_CORE, _INSTALL_COMPILER)] if CORE == "python" else []
+    remedy = _UNSET_CORE if environment.get("TURTLEWIRE_CORE") == "python" else _INSTALL_COMPILER
+    found = [note(_PLAIN_CORE, remedy)] if CORE == "python" else []
     distro = environment.get("ROS_DISTRO", "")
     if distro not in {"", *map(str, Distro)}:
         used = current_distro(environment)
