@@ -184,7 +184,7 @@ class _Parser:
                     )
                 if not isinstance(event, yaml.MappingStartEvent):
                     raise RuleError(
-                        f"Expected parameters below {_PARAMETERS_KEY} at line {self._line}"
+                        f"Cannot have a value before {_PARAMETERS_KEY} at line {self._line}"
                     )
                 self._parameters(self._nodes.setdefault(prefix, {}), "")
             elif isinstance(event, yaml.MappingStartEvent):

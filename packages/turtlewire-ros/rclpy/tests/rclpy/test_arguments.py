@@ -79,7 +79,7 @@ def test_golden_exit_codes(name):
     ("words", "text"),
     [
         (["-r"], "Couldn't parse trailing -r flag. No remap rule found."),
-        (["--param"], "Couldn't parse trailing --param flag. No parameter override found."),
+        (["--param"], "Couldn't parse trailing --param flag. No parameter override rule found."),
         (["--params-file"], "Couldn't parse trailing --params-file flag. No file path provided."),
         (
             ["--log-level"],
@@ -489,7 +489,7 @@ def test_nodes_are_in_the_enclave_of_the_process(monkeypatch, middleware):
         ("1", "Cannot have a value before ros__parameters at line 1"),
         ("n: [1]", "Sequences can only be values and not keys in params. Error at line 1\n"),
         ("ros__parameters: {a: 1}", "There are no node names before ros__parameters at line 1"),
-        ("n:\n  ros__parameters: 1", "Expected parameters below ros__parameters at line 2"),
+        ("n:\n  ros__parameters: 1", "Cannot have a value before ros__parameters at line 2"),
         ("n:\n  ros__parameters:\n    [1]: 2", "Sequences cannot be key at line 3"),
         (
             "n:\n  ros__parameters:\n    a: [1, [2]]",
