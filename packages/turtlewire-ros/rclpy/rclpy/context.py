@@ -6,6 +6,7 @@ import atexit
 import sys
 import threading
 import time
+import warnings
 import weakref
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -157,7 +158,9 @@ class Context:
         return self._valid or self.ended_by_signal
 
     def get_domain_id(self) -> int:
-        """Return the domain it is in."""
+        """Return the domain it is in; RuntimeError before :meth:`init`."""
+        if self._wire is None:
+            raise RuntimeError("Context must be initialized before it can have a domain id")
         return self.wire.domain_id
 
     @property
@@ -318,7 +321,14 @@ class Context:
         self.try_shutdown()
 
     def __enter__(self) -> Self:
-        self.init()
+        if not self.ok():
+            if since(KILTED):
+                warnings.warn(
+                    "init() must be called on a Context before using it in a Python context "
+                    "manager. Calling init() with no arguments, this usage is deprecated",
+                    stacklevel=2,
+                )
+            self.init()
         return self
 
     def __exit__(self, exc_type: object, exc_val: object, exc_tb: object) -> None:

@@ -82,7 +82,7 @@ class Duration:
         if not isinstance(factor, (int, float)):
             return NotImplemented
         if math.isnan(factor) or factor == -math.inf:
-            raise ValueError(f"Can't multiply duration with {factor}")
+            raise ValueError("Can't multiply duration with nan")  # also for -inf
         if factor == math.inf:
             return Infinite
         return Duration(nanoseconds=int(self._nanoseconds * factor))

@@ -52,7 +52,7 @@ __getattr__ = reexports(
         "rclpy.clock": ("Clock", "ClockType"),
         "rclpy.context": ("Context",),
         "rclpy.exceptions": ("InvalidHandle", "TimerCancelledError"),
-        "rclpy.guard_condition": ("GuardCondition",),
+        "rclpy.guard_condition": ("GuardCondition", "SignalHandlerGuardCondition"),
         "rclpy.node": ("Node",),
         "rclpy.service": ("Service",),
         "rclpy.subscription": ("Subscription",),

@@ -13,13 +13,14 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
     Raises:
         ValueError: A name is invalid.
     """
-    for what, fault in (
-        (f"topic name '{topic_name}'", names.validate_topic_name(topic_name)),
-        (f"node name '{node_name}'", names.validate_node_name(node_name)),
-        (f"node namespace '{node_namespace}'", names.validate_namespace(node_namespace)),
+    for what, name, check in (
+        ("topic name", topic_name, names.validate_topic_name),
+        ("node name", node_name, names.validate_node_name),
+        ("node namespace", node_namespace, names.validate_namespace),
     ):
+        fault = check(name)
         if fault is not None:
-            raise ValueError(f"{what} is invalid: {fault.message}")
+            raise ValueError(f"{what} '{name}' is invalid: {fault.message}")
     try:
         return names.expand_topic_name(topic_name, node_name, node_namespace)
     except ValueError as error:

@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from enum import IntEnum
+from enum import Enum, IntEnum
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from turtlewire.distro import KILTED, since
 
+from .impl.reexports import reexports
+
 if TYPE_CHECKING:
     import rcl_interfaces.msg
+
+__getattr__ = reexports(__name__, {"rcl_interfaces.msg": ("ParameterType", "ParameterValue")})
+
+if TYPE_CHECKING or not since(KILTED):  # noqa: SIM108 - mypy needs an alias
+    _TypeBase = Enum
+else:
+    _TypeBase = IntEnum
 
 PARAMETER_SEPARATOR_STRING = "."
 
@@ -32,11 +42,11 @@ class Parameter:
         ValueError: Type and value do not agree.
     """
 
-    class Type(IntEnum):
-        """The types, with the numbers of ``rcl_interfaces/msg/ParameterType``.
+    if not TYPE_CHECKING:
+        __class_getitem__ = classmethod(GenericAlias)
 
-        In texts, Jazzy has the name and later distributions have the number.
-        """
+    class Type(_TypeBase):
+        """The types, with the numbers of ``rcl_interfaces/msg/ParameterType``."""
 
         NOT_SET = 0
         BOOL = 1
@@ -141,7 +151,8 @@ class Parameter:
         return ParameterMsg(name=self._name, value=self.get_parameter_value())
 
     def __repr__(self) -> str:
-        return f"Parameter(name={self._name!r}, type_={self._type_}, value={self._value!r})"
+        type_ = f"Type.{self._type_.name}"
+        return f"Parameter(name={self._name!r}, type_={type_}, value={self._value!r})"
 
 
 # bool comes before int, because it is a subclass of int.

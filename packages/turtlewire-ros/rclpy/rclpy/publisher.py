@@ -99,7 +99,7 @@ class BasePublisher(Generic[MsgT]):
         if isinstance(msg, self.msg_type):
             if not (self._sends_always or self._wire.is_heard()):
                 # After a shutdown, publishing is an error even if nothing would be sent.
-                self._check_context()
+                self._check_context("Failed to publish")
                 if not self._checked:
                     encode(msg)
                     self._checked = True
@@ -113,7 +113,7 @@ class BasePublisher(Generic[MsgT]):
             self._wire.publish(cdr)
         except WireError as error:
             self._check_usable()  # raises if another thread has destroyed the publisher
-            self._check_context()
+            self._check_context("Failed to publish")
             raise RCLError(f"Failed to publish: {error}") from error
 
     @property
@@ -121,13 +121,14 @@ class BasePublisher(Generic[MsgT]):
         """Return the sender for native code; None if the middleware has none."""
         return self._wire.outlet()
 
-    def _check_context(self) -> None:
+    def _check_context(self, failure: str) -> None:
         if not self._context.is_open():
-            raise RCLError("Failed to publish: publisher's context is invalid") from None
+            raise RCLError(f"{failure}: publisher's context is invalid") from None
 
     def get_subscription_count(self) -> int:
         """Return the number of matching subscriptions that are known now."""
         self._check_usable()
+        self._check_context("failed to get subscription count")
         return self._wire.subscription_count()
 
     @property
@@ -150,6 +151,7 @@ class BasePublisher(Generic[MsgT]):
     def assert_liveliness(self) -> None:
         """Say that this publisher is alive (``LivelinessPolicy.MANUAL_BY_TOPIC``)."""
         self._check_usable()
+        self._check_context("Failed to assert liveliness on the Publisher")
         self._wire.assert_liveliness()
 
     def destroy(self) -> None:
@@ -215,6 +217,7 @@ class Publisher(BasePublisher[MsgT]):
             False when the time was over, or the context was shut down, before.
         """
         self._check_usable()
+        self._check_context("Failed to wait for all acknowledgements")
         deadline_ns = None if timeout.nanoseconds < 0 else time.monotonic_ns() + timeout.nanoseconds
         while True:  # in slices: neither a signal nor a shutdown ends the middleware's wait
             remaining_ns = (

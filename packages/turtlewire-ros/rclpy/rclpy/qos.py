@@ -26,9 +26,11 @@ from .duration import Duration
 from .impl.hints import checked_property, require, with_hint
 
 __all__ = [
+    "DeadlineBestAvailable",
     "DurabilityPolicy",
     "HistoryPolicy",
     "InvalidQoSProfileException",
+    "LivelinessLeaseDurationeBestAvailable",
     "LivelinessPolicy",
     "QoSCheckCompatibleResult",
     "QoSCompatibility",
@@ -67,7 +69,8 @@ class InvalidQoSProfileException(Exception):
 _UNSPECIFIED = Duration()
 _INFINITE_NS = wire_qos.INFINITE_NS
 #: rmw's mark for "as strict as the other side allows".
-_BEST_AVAILABLE = Duration(nanoseconds=_INFINITE_NS - 1)
+DeadlineBestAvailable = Duration(nanoseconds=_INFINITE_NS - 1)
+LivelinessLeaseDurationeBestAvailable = DeadlineBestAvailable  # ROS 2's spelling
 #: The policies of a profile and their values unless given.
 _DEFAULTS: dict[str, Any] = {
     "history": HistoryPolicy.KEEP_LAST,
@@ -85,7 +88,8 @@ _DEFAULTS: dict[str, Any] = {
 class QoSProfile:
     """The quality of service that a publisher offers or a subscription requests.
 
-    All arguments are keywords; mutable.
+    Mutable. In Jazzy, all arguments are keywords and none is None; from Kilted on, None is the
+    default.
 
     Args:
         history: Needs ``depth`` when it is KEEP_LAST; KEEP_LAST when omitted.
@@ -107,35 +111,50 @@ class QoSProfile:
     __slots__ = tuple(f"_{policy}" for policy in _DEFAULTS)
     __hash__ = None  # type: ignore[assignment]  # mutable
 
-    if TYPE_CHECKING:
+    def __init__(
+        self,
+        history: HistoryPolicy | int | None = None,
+        depth: int | None = None,
+        reliability: ReliabilityPolicy | int | None = None,
+        durability: DurabilityPolicy | int | None = None,
+        lifespan: Duration | None = None,
+        deadline: Duration | None = None,
+        liveliness: LivelinessPolicy | int | None = None,
+        liveliness_lease_duration: Duration | None = None,
+        avoid_ros_namespace_conventions: bool | None = None,
+    ) -> None:
+        values = (
+            history,
+            depth,
+            reliability,
+            durability,
+            lifespan,
+            deadline,
+            liveliness,
+            liveliness_lease_duration,
+            avoid_ros_namespace_conventions,
+        )
+        policies = zip(_DEFAULTS, values, strict=True)
+        self._set({policy: value for policy, value in policies if value is not None})
 
-        def __init__(
-            self,
-            *,
-            history: HistoryPolicy | int = ...,
-            depth: int = ...,
-            reliability: ReliabilityPolicy | int = ...,
-            durability: DurabilityPolicy | int = ...,
-            lifespan: Duration = ...,
-            deadline: Duration = ...,
-            liveliness: LivelinessPolicy | int = ...,
-            liveliness_lease_duration: Duration = ...,
-            avoid_ros_namespace_conventions: bool = ...,
-        ) -> None: ...
+    if not (TYPE_CHECKING or since(KILTED)):
 
-    def __init__(self, **kwargs: Any) -> None:  # type: ignore[no-redef]  # ROS 2's signature
-        if not all(key in _DEFAULTS for key in kwargs):
-            unknown = ", ".join(sorted(kwargs.keys() - _DEFAULTS.keys()))
-            raise with_hint(
-                AssertionError(f"Invalid arguments passed to constructor: {kwargs.keys()!r}"),
-                f"A QoSProfile has no {unknown}; it has {', '.join(_DEFAULTS)}",
-            )
-        if "history" not in kwargs and "depth" not in kwargs:
+        def __init__(self, **kwargs: Any) -> None:
+            if not all(key in _DEFAULTS for key in kwargs):
+                unknown = ", ".join(sorted(kwargs.keys() - _DEFAULTS.keys()))
+                raise with_hint(
+                    AssertionError(f"Invalid arguments passed to constructor: {kwargs.keys()!r}"),
+                    f"A QoSProfile has no {unknown}; it has {', '.join(_DEFAULTS)}",
+                )
+            self._set(kwargs)
+
+    def _set(self, policies: dict[str, Any]) -> None:
+        if "history" not in policies and "depth" not in policies:
             raise InvalidQoSProfileException("History and/or depth settings are required.")
-        if "depth" not in kwargs and kwargs["history"] == HistoryPolicy.KEEP_LAST:
+        if "depth" not in policies and policies["history"] == HistoryPolicy.KEEP_LAST:
             raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
         for policy, default in _DEFAULTS.items():
-            setattr(self, policy, kwargs.get(policy, default))
+            setattr(self, policy, policies.get(policy, default))
 
     history: HistoryPolicy = checked_property(
         "history", HistoryPolicy, "History policy: which samples are kept."
@@ -256,9 +275,9 @@ qos_profile_best_available = QoSProfile(
     depth=10,
     reliability=ReliabilityPolicy.BEST_AVAILABLE,
     durability=DurabilityPolicy.BEST_AVAILABLE,
-    deadline=_BEST_AVAILABLE,
+    deadline=DeadlineBestAvailable,
     liveliness=LivelinessPolicy.BEST_AVAILABLE,
-    liveliness_lease_duration=_BEST_AVAILABLE,
+    liveliness_lease_duration=LivelinessLeaseDurationeBestAvailable,
 )
 #: A tool that starts late still gets the last ten seconds.
 qos_profile_rosout_default = QoSProfile(

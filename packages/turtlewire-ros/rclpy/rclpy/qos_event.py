@@ -47,7 +47,5 @@ __all__ = [
 ]
 
 warnings.warn(
-    "importing from rclpy.qos_event is deprecated, import from rclpy.event_handler instead",
-    DeprecationWarning,
-    stacklevel=2,
+    "importing 'qos_event' is deprecated; import 'event_handler' instead", UserWarning, stacklevel=2
 )

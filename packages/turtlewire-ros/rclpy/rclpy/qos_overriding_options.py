@@ -102,9 +102,7 @@ def declare_qos_parameters(
     prefix = f"qos_overrides.{topic_name}.{entity_type}" + (
         f"_{options.entity_id}" if options.entity_id is not None else ""
     )
-    what = f"for {entity_type} `{topic_name}`" + (
-        f" with id `{options.entity_id}`" if options.entity_id is not None else ""
-    )
+    what = f"for {entity_type} `{topic_name}` with id `{options.entity_id}`"
     for policy in options.policy_kinds:
         if policy is QoSPolicyKind.LIFESPAN and entity_type == "subscription":
             continue  # samples live as long as the publisher says

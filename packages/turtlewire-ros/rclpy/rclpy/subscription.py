@@ -15,6 +15,7 @@ from ._rclpy_pybind11 import RCLError
 from ._typing import MsgT
 from ._typing import MsgT as MsgType
 from .impl.hints import with_hint
+from .utilities import get_rmw_implementation_identifier
 
 if TYPE_CHECKING:
     from turtlewire.wire import base
@@ -198,6 +199,10 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
             "received_timestamp": info.received_timestamp_ns,
             "publication_sequence_number": info.publication_number,
             "reception_sequence_number": None,
+            "publisher_gid": {
+                "implementation_identifier": get_rmw_implementation_identifier(),
+                "data": info.publisher_gid,
+            },
         }
 
     def _close(self) -> None:
@@ -297,6 +302,8 @@ def _callback_type(callback: Callable[..., Any], failure: str) -> BaseSubscripti
         signature = inspect.signature(callback)
     except ValueError:  # a built-in function without one, such as `print` in Python 3.10
         return BaseSubscription.CallbackType.MessageOnly
+    except TypeError:  # not callable at all
+        raise RuntimeError(failure) from None
     for count in (1, 2):
         try:
             signature.bind(*(None,) * count)

@@ -7,9 +7,9 @@ from collections.abc import MutableMapping
 from typing import TYPE_CHECKING, Any
 
 from launch.actions.variable_action import SetVariableAction
-from launch.conditions import evaluate_condition_expression
 from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.type_utils import coerce_to_type
 
 if TYPE_CHECKING:
     from launch.frontend import Entity, Parser
@@ -25,7 +25,8 @@ class AppendEnvironmentVariable(SetVariableAction):
     Args:
         name: Its name.
         value: The value.
-        prepend: Add it before the others: true or false, or text with one of these words.
+        prepend: Add it before the others: true or false, or text that YAML or a condition reads as
+            that (``yes``, ``1``).
         separator: What stands between values.
         **kwargs: See :class:`Action`.
     """
@@ -77,7 +78,8 @@ class AppendEnvironmentVariable(SetVariableAction):
         variables = self.variables(context)
         if name in variables:
             parts = [variables[name], value]
-            if evaluate_condition_expression(context, self._prepend):
+            prepend = perform_substitutions(context, self._prepend)
+            if coerce_to_type({"0": "false", "1": "true"}.get(prepend, prepend), bool):
                 parts.reverse()
             value = perform_substitutions(context, self._separator).join(parts)
         variables[name] = value

@@ -146,13 +146,15 @@ def test_environment_variables(launch, monkeypatch):
         AppendEnvironmentVariable("TURTLE_PATH", "x"),
         AppendEnvironmentVariable("TURTLE_PATH", "y"),
         AppendEnvironmentVariable("TURTLE_PATH", "z", prepend=True, separator=";"),
+        AppendEnvironmentVariable("TURTLE_PATH", "w", prepend="yes", separator=";"),
+        AppendEnvironmentVariable("TURTLE_PATH", "v", prepend="no", separator=";"),
         show(path),
         SetEnvironmentVariable("TURTLE", "c"),
         ResetEnvironment(),
         show(turtle),
     )
     assert outcome.messages == [
-        f"it is {value}" for value in ("b", "unset", "a", f"z;x{os.pathsep}y", "a")
+        f"it is {value}" for value in ("b", "unset", "a", f"w;z;x{os.pathsep}y;v", "a")
     ]
     assert launch(PopEnvironment()).error == "environment stack unexpectedly empty"
 

@@ -21,12 +21,18 @@ if TYPE_CHECKING:
 _INVALID = "rcl node's context is invalid"
 
 
-def check_callable(callback: Any) -> None:
-    """Make sure that a callback can be called; TypeError with a hint if it cannot."""
+def check_callable(callback: Any, *words: object) -> None:
+    """Make sure that a callback can be called; TypeError with a hint if it cannot.
+
+    Args:
+        callback: The callback.
+        *words: Arguments of the error, if they are not Python's.
+    """
     if not callable(callback):
-        error = TypeError(f"'{type(callback).__name__}' object is not callable")
+        words = words or (f"'{type(callback).__name__}' object is not callable",)
         raise with_hint(
-            error, "Pass the function itself (self.callback), not what it returns (self.callback())"
+            TypeError(*words),
+            "Pass the function itself (self.callback), not what it returns (self.callback())",
         )
 
 
@@ -34,6 +40,15 @@ def check_valid(context: Context, failure: str) -> None:
     """Raise RCLError, with the text of what failed, if a context has ended, also by a signal."""
     if not context.ok():
         raise RCLError(f"{failure}: {_INVALID}")
+
+
+def check_open(context: Context, what: str) -> None:
+    """Raise RCLError if a timer or guard condition is made in a context that is shut down."""
+    if not context.is_open():
+        raise RCLError(
+            f"failed to create {what}: the given context is not valid, either rcl_init() was not "
+            "called or rcl_shutdown() was called."
+        )
 
 
 @contextmanager

@@ -14,7 +14,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from rclpy._execution.entity import Entity
 from rclpy._execution.handle import EndpointImpl, closed_on_error
 from rclpy._execution.membership import Membership
-from rclpy._node.checks import NameResolver, check_callable, in_open_context, validate_qos
+from rclpy._node.checks import (
+    NameResolver,
+    check_callable,
+    check_open,
+    in_open_context,
+    validate_qos,
+)
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.client import Client
 from rclpy.event_handler import EventHandler, PublisherEventCallbacks, SubscriptionEventCallbacks
@@ -258,6 +264,7 @@ class OwnEndpoints:
     ) -> Timer:
         if callback is not None:
             check_callable(callback)
+        check_open(self._core.context, "timer")
         # Truncated, not rounded, as in ROS 2.
         period_ns = int(float(period_sec) * 1_000_000_000)
         return self._own(
@@ -284,6 +291,7 @@ class OwnEndpoints:
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None
     ) -> GuardCondition:
+        check_open(self._core.context, "guard_condition")
         group = callback_group or self.default_callback_group
         return self._own(GuardCondition, GuardCondition(callback, group, self._core.context))
 

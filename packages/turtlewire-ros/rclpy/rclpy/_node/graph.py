@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -17,11 +17,13 @@ from turtlewire.wire import names
 if TYPE_CHECKING:
     from rclpy._node.state import NodeState
     from rclpy.endpoint_info import EndpointTypeEnum, ServiceEndpointInfo, TopicEndpointInfo
-    from turtlewire.wire.base import EndpointInfo, Graph
+    from turtlewire.wire.base import EndpointInfo, Graph, NodeInfo
 
 NamesAndTypes = list[tuple[str, list[str]]]
 
 
+#: ROS 2's words for the kinds of endpoints, in its error messages.
+_WORDS = {"subscription": "subscriber"}
 _FEEDBACK = "/_action/feedback"
 _FEEDBACK_TYPE = "_FeedbackMessage"
 
@@ -41,21 +43,26 @@ class NodeGraph:
     def __init__(self, core: NodeState) -> None:
         self._core = core
 
-    @property
-    def _graph(self) -> Graph:
+    def _graph(self, failure: str) -> Graph:
+        """Return the graph; an RCLError with ROS 2's words for ``failure`` if its context ended."""
         _ = self._core.wire  # raises if the node was destroyed
-        check_valid(self._core.context, "Failed to query the graph")
+        check_valid(self._core.context, failure)
         return self._core.context.wire.graph
 
     def topic_names_and_types(self, no_demangle: bool) -> NamesAndTypes:
-        return list(self._graph.topic_names_and_types(demangle=not no_demangle).items())
+        graph = self._graph("failed to get topic names and types")
+        return list(graph.topic_names_and_types(demangle=not no_demangle).items())
 
     def service_names_and_types(self) -> NamesAndTypes:
-        return list(self._graph.service_names_and_types().items())
+        graph = self._graph("failed to get service names and types")
+        return list(graph.service_names_and_types().items())
 
     def node_names(self) -> list[tuple[str, str, str]]:
         """Name, namespace and enclave of all nodes."""
-        return [tuple(node) for node in self._graph.nodes()]  # type: ignore[misc]
+        return [tuple(node) for node in self._nodes()]  # type: ignore[misc]
+
+    def _nodes(self) -> Iterable[NodeInfo]:
+        return self._graph("Failed to get node names").nodes()
 
     def by_node(
         self, kind: str, node_name: str, node_namespace: str, *, no_demangle: bool = False
@@ -108,9 +115,9 @@ class NodeGraph:
         node_namespace: str,
         name_and_type: Callable[[EndpointInfo], tuple[str, str] | None],
     ) -> NamesAndTypes:
+        graph = self._graph(f"failed to get {_WORDS.get(what, what)} names and types")
         if not any(
-            (node.name, node.namespace) == (node_name, node_namespace)
-            for node in self._graph.nodes()
+            (node.name, node.namespace) == (node_name, node_namespace) for node in graph.nodes()
         ):
             what = "subscriber" if what == "subscription" else what
             error = NodeNameNonExistentError(
@@ -119,7 +126,7 @@ class NodeGraph:
             fqn = names.fully_qualified_node_name(node_name, node_namespace)
             raise with_hint(error, f"No node {fqn} is known")
         found: dict[str, set[str]] = {}
-        for endpoint in self._graph.endpoints():
+        for endpoint in graph.endpoints():
             owner = endpoint.node
             if (
                 endpoint.kind != kind
@@ -139,7 +146,8 @@ class NodeGraph:
             ValueError: The name breaks the rules.
         """
         name = self._full_name(topic)
-        return len(self._graph.endpoints_of(name, kind))
+        graph = self._graph(f"Error in rcl_count_{_WORDS.get(kind, kind)}s")
+        return len(graph.endpoints_of(name, kind))
 
     def count_service(self, kind: str, service: str) -> int:
         """Return the number of a service's servers (``kind`` "service") or clients ("client").
@@ -149,7 +157,8 @@ class NodeGraph:
         """
         name = self._full_name(service)
         end = "subscription" if kind == "service" else "publisher"
-        return len(self._graph.endpoints_of(names.request_topic(name), end))
+        graph = self._graph(f"Error in rcl_count_{kind}s")
+        return len(graph.endpoints_of(names.request_topic(name), end))
 
     def _full_name(self, name: str) -> str:
         expanded = expand_topic_name(name, self._core.name, self._core.namespace)
@@ -170,9 +179,9 @@ class NodeGraph:
                 return []  # a ROS name, where the name on the wire is asked for
         else:
             name = self._full_name(topic)
+        graph = self._graph(f"Failed to get information by topic for {kind}s")
         return [
-            TopicEndpointInfo.from_wire(endpoint)
-            for endpoint in self._graph.endpoints_of(name, kind)
+            TopicEndpointInfo.from_wire(endpoint) for endpoint in graph.endpoints_of(name, kind)
         ]
 
     def service_infos(
@@ -194,14 +203,14 @@ class NodeGraph:
             )
         core = self._core
         name = core.arguments.remap_service(self._full_name(service), core.name, core.namespace)
-        return service_infos(self._graph, name, kind)
+        return service_infos(self._graph("Failed to get information of service"), name, kind)
 
     def has_node(self, fully_qualified_node_name: str) -> bool:
         """Return True if a node is known; a slash before its name may be missing."""
         wanted = f"/{fully_qualified_node_name.removeprefix('/')}"
         return any(
             names.fully_qualified_node_name(node.name, node.namespace) == wanted
-            for node in self._graph.nodes()
+            for node in self._nodes()
         )
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout_sec: float) -> bool:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
+
+from rclpy._node.checks import check_callable
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, SetParametersResult
     from rclpy._node.parameters import NodeParameters
     from rclpy.parameter import Parameter
 
-_Callback = TypeVar("_Callback", bound=Callable[..., Any])
+_NOT_CALLABLE = "Callback must be callable, got {}"  # ROS 2 does not fill it in
 
 
 class ParameterMethods:
@@ -149,17 +151,19 @@ class ParameterMethods:
     ) -> None:
         """Let ``callback`` see and change the list of parameters before they are checked."""
         # As in ROS 2, the newest callback comes first.
-        self._parameters.callbacks.before.insert(0, _checked(callback))
+        self._parameters.callbacks.before.insert(0, callback)
 
     def add_on_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], SetParametersResult]
     ) -> None:
-        """Let ``callback`` accept or reject new values."""
-        self._parameters.callbacks.deciding.insert(0, _checked(callback))
+        """Let ``callback`` accept or reject new values; TypeError if it is not callable."""
+        check_callable(callback, _NOT_CALLABLE, type(callback))
+        self._parameters.callbacks.deciding.insert(0, callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
-        """Call ``callback`` with parameters that were set."""
-        self._parameters.callbacks.after.insert(0, _checked(callback))
+        """Call ``callback`` with parameters that were set; TypeError if it is not callable."""
+        check_callable(callback, _NOT_CALLABLE, type(callback))
+        self._parameters.callbacks.after.insert(0, callback)
 
     def remove_pre_set_parameters_callback(
         self, callback: Callable[[list[Parameter]], list[Parameter]]
@@ -178,9 +182,3 @@ class ParameterMethods:
     ) -> None:
         """Undo :meth:`add_post_set_parameters_callback`; ValueError when it was not added."""
         self._parameters.callbacks.after.remove(callback)
-
-
-def _checked(callback: _Callback) -> _Callback:
-    if not callable(callback):
-        raise TypeError(f"Callback must be callable, got {type(callback)}")
-    return callback

@@ -5,7 +5,10 @@
 
 from __future__ import annotations
 
+import warnings
 from enum import IntEnum
+
+from turtlewire.distro import LYRICAL, since
 
 
 class QoSPolicyKind(IntEnum):
@@ -91,6 +94,31 @@ class LivelinessPolicy(QoSPolicyEnum):
     UNKNOWN = 4
     BEST_AVAILABLE = 5
 
+
+class _OldName:
+    """A value under the name of rmw's C library, which Lyrical does not have."""
+
+    def __init__(self, old: str, new: str) -> None:
+        self.old = old
+        self.new = new
+
+    def __get__(self, _: object, policy: type[QoSPolicyEnum]) -> QoSPolicyEnum:
+        warnings.warn(
+            f"{policy.__name__}.{self.old} is deprecated. "
+            f"Use {policy.__name__}.{self.new} instead.",
+            stacklevel=2,
+        )
+        return policy[self.new]
+
+
+if not since(LYRICAL):
+    for _policy in (HistoryPolicy, ReliabilityPolicy, DurabilityPolicy, LivelinessPolicy):
+        for _new in _policy.__members__.keys() - {"BEST_AVAILABLE"}:
+            _kind = _policy.__name__.removesuffix("Policy").upper()
+            if (_kind, _new) == ("LIVELINESS", "UNKNOWN"):
+                _kind = "DURABILITY"  # ROS 2's slip
+            _old = f"RMW_QOS_POLICY_{_kind}_{_new}"
+            setattr(_policy, _old, _OldName(_old, _new))
 
 QoSHistoryPolicy = HistoryPolicy
 QoSReliabilityPolicy = ReliabilityPolicy

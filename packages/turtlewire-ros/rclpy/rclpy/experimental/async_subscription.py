@@ -7,8 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy._typing import MsgT
-from rclpy.subscription import BaseSubscription, MessageInfo
-from rclpy.utilities import get_rmw_implementation_identifier
+from rclpy.subscription import BaseSubscription
 
 from ._async_entity import AsyncEndpoint, TaskGroup
 
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
 
     from rclpy._execution.handle import EndpointImpl
     from rclpy.qos import QoSProfile
-    from turtlewire.wire import base
 
 
 class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
@@ -69,13 +67,6 @@ class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
     def _start(self, group: TaskGroup | None) -> None:
         if not self._is_iterated:
             super()._start(group)
-
-    def _info(self, info: base.MessageInfo) -> MessageInfo:
-        gid = {
-            "implementation_identifier": get_rmw_implementation_identifier(),
-            "data": info.publisher_gid,
-        }
-        return {**super()._info(info), "publisher_gid": gid}
 
     def __aiter__(self) -> Self:
         """Iterate over the messages until the subscription is destroyed.

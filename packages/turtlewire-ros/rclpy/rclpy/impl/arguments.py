@@ -37,7 +37,7 @@ _REMAP = _Option(
 )
 _PARAM = _Option(
     "parameter override rule",
-    "Couldn't parse trailing {} flag. No parameter override found.",
+    "Couldn't parse trailing {} flag. No parameter override rule found.",
     "_add_parameter",
 )
 _ENCLAVE = _Option(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.node import Node
+from turtlewire.distro import KILTED, since
 
 from .managed_entity import ManagedEntity
 from .publisher import LifecyclePublisher
@@ -84,24 +85,39 @@ class LifecycleNodeMixin(ManagedEntity):
     # Transitions
 
     def trigger_configure(self) -> TransitionCallbackReturn:
-        """Go from unconfigured to inactive; RCLError in another state."""
-        return self.__change_state(self._state_machine.by_label("configure"))
+        """Go from unconfigured to inactive; in another state, RCLError, or from Kilted on ERROR."""
+        return self.__request("configure")
 
     def trigger_cleanup(self) -> TransitionCallbackReturn:
-        """Go from inactive to unconfigured; RCLError in another state."""
-        return self.__change_state(self._state_machine.by_label("cleanup"))
+        """Go from inactive to unconfigured; in another state, RCLError, or from Kilted on ERROR."""
+        return self.__request("cleanup")
 
     def trigger_activate(self) -> TransitionCallbackReturn:
-        """Go from inactive to active; RCLError in another state."""
-        return self.__change_state(self._state_machine.by_label("activate"))
+        """Go from inactive to active; in another state, RCLError, or from Kilted on ERROR."""
+        return self.__request("activate")
 
     def trigger_deactivate(self) -> TransitionCallbackReturn:
-        """Go from active to inactive; RCLError in another state."""
-        return self.__change_state(self._state_machine.by_label("deactivate"))
+        """Go from active to inactive; in another state, RCLError, or from Kilted on ERROR."""
+        return self.__request("deactivate")
 
     def trigger_shutdown(self) -> TransitionCallbackReturn:
         """Go to finalized, from where no way leads on: RCLError there."""
         return self.__change_state(self._state_machine.by_label("shutdown"))
+
+    def __request(self, label: str) -> TransitionCallbackReturn:
+        try:
+            transition = self._state_machine.by_label(label)
+        except RCLError:
+            if not since(KILTED):
+                raise
+            number = next(each.transition_id for each in TRANSITIONS if each.label == label)
+            state = self._state_machine.current_state
+            self.get_logger().error(  # type: ignore[attr-defined]
+                f"Unable to start transition {number} from current state "
+                f"{(state.state_id, state.label)}"
+            )
+            return TransitionCallbackReturn.ERROR
+        return self.__change_state(transition)
 
     def __change_state(self, transition: Transition) -> TransitionCallbackReturn:
         before = self._state_machine.current_state

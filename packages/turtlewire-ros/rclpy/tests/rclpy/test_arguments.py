@@ -79,7 +79,7 @@ def test_golden_exit_codes(name):
     ("words", "text"),
     [
         (["-r"], "Couldn't parse trailing -r flag. No remap rule found."),
-        (["--param"], "Couldn't parse trailing --param flag. No parameter override found."),
+        (["--param"], "Couldn't parse trailing --param flag. No parameter override rule found."),
         (["--params-file"], "Couldn't parse trailing --params-file flag. No file path provided."),
         (
             ["--log-level"],

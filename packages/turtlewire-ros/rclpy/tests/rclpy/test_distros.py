@@ -72,6 +72,98 @@ CHANGES = {
             "lyrical": "AttributeError: 'RcutilsLogger' object has no attribute 'warn'",
         },
     ),
+    "arguments of a QoSProfile": (
+        (
+            "print(outcome(lambda: QoSProfile(1, 5).depth))\n"
+            "print(outcome(lambda: QoSProfile(depth=5, reliability=None).reliability))\n"
+            "print(outcome(lambda: QoSProfile(depth=5, foo=1)))"
+        ),
+        {
+            "jazzy": (
+                "TypeError: QoSProfile.__init__() takes 1 positional argument but 3 were given\n"
+                "AssertionError: expected an object of type int, got None\n"
+                "AssertionError: Invalid arguments passed to constructor: dict_keys(['depth', "
+                "'foo'])"
+            ),
+            "kilted": (
+                "5 []\n1 []\n"
+                "TypeError: QoSProfile.__init__() got an unexpected keyword argument 'foo'"
+            ),
+            "lyrical": (
+                "5 []\n1 []\n"
+                "TypeError: QoSProfile.__init__() got an unexpected keyword argument 'foo'"
+            ),
+        },
+    ),
+    "a transition that the state does not have": (
+        (
+            "from rclpy.lifecycle import LifecycleNode\n"
+            "managed = LifecycleNode('managed')\n"
+            "managed.get_logger().error = print\n"
+            "print(outcome(managed.trigger_activate).split(':')[0])\n"
+            "print(managed.trigger_configure())"
+        ),
+        {
+            "jazzy": "RCLError\nTransitionCallbackReturn.SUCCESS",
+            "kilted": (
+                "Unable to start transition 3 from current state (1, 'unconfigured')\n"
+                "TransitionCallbackReturn.ERROR []\nTransitionCallbackReturn.SUCCESS"
+            ),
+        },
+    ),
+    "a context in a with statement": (
+        (
+            "from rclpy.context import Context\n"
+            "ready, fresh = Context(), Context()\n"
+            "ready.init(args=[])\n"
+            "with ready: print(ready.ok())\n"
+            "print(ready.ok())\n"
+            "print(outcome(lambda: fresh.__enter__().ok()))"
+        ),
+        {
+            "jazzy": "True\nFalse\nTrue []",
+            "kilted": (
+                "True\nFalse\nTrue ['UserWarning: init() must be called on a Context before using "
+                "it in a Python context manager. Calling init() with no arguments, this usage is "
+                "deprecated']"
+            ),
+        },
+    ),
+    "types of parameters": (
+        (
+            "from rclpy.parameter import Parameter\n"
+            "node.declare_parameter('speed', 1.5)\n"
+            "print(Parameter.Type.INTEGER == 2, Parameter('speed', value=2))\n"
+            "print(node.set_parameters([Parameter('speed', value='x')])[0].reason)\n"
+            "print(outcome(lambda: Parameter('speed', Parameter.Type.INTEGER, 'x')))"
+        ),
+        {
+            "jazzy": (
+                "False Parameter(name='speed', type_=Type.INTEGER, value=2)\n"
+                "Wrong parameter type, expected 'Type.DOUBLE' got 'Type.STRING'\n"
+                "ValueError: Type 'Type.INTEGER' and value 'x' do not agree"
+            ),
+            "kilted": (
+                "True Parameter(name='speed', type_=Type.INTEGER, value=2)\n"
+                "Wrong parameter type, expected '3' got '4'\n"
+                "ValueError: Type '2' and value 'x' do not agree"
+            ),
+        },
+    ),
+    "names of policies in rmw": (
+        (
+            "from rclpy.qos import LivelinessPolicy, QoSHistoryPolicy\n"
+            "print(outcome(lambda: QoSHistoryPolicy.RMW_QOS_POLICY_HISTORY_KEEP_LAST.name))\n"
+            "print(hasattr(LivelinessPolicy, 'RMW_QOS_POLICY_DURABILITY_UNKNOWN'))"
+        ),
+        {
+            "jazzy": (
+                "KEEP_LAST ['UserWarning: HistoryPolicy.RMW_QOS_POLICY_HISTORY_KEEP_LAST is "
+                "deprecated. Use HistoryPolicy.KEEP_LAST instead.']\nTrue"
+            ),
+            "lyrical": ("AttributeError: RMW_QOS_POLICY_HISTORY_KEEP_LAST\nFalse"),
+        },
+    ),
     "a call that takes too long": (
         (
             "client = node.create_client(AddTwoInts, 'add')\n"
@@ -222,7 +314,7 @@ print(context.ok())
         "1499999999",
         "True",
         "ValueError: Can't multiply duration with nan",
-        "ValueError: Can't multiply duration with -inf",
+        "ValueError: Can't multiply duration with nan",
         *["TypeError"] * 3,
         "True ROS_TIME",
         "True",

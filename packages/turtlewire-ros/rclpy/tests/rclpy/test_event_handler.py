@@ -236,7 +236,7 @@ def test_wrong_overrides(context):
     )
     with pytest.raises(
         InvalidQosOverridesError,
-        match=r"^Provided QoS overrides for publisher `/c`, are not valid: 3$",
+        match=r"^Provided QoS overrides for publisher `/c` with id `None`, are not valid: 3$",
     ):
         node.create_publisher(String, "c", 3, qos_overriding_options=refusing)
 
@@ -308,7 +308,7 @@ def test_an_event_callback_may_be_async(node, spin_until):
 
 def test_the_former_module_of_events(monkeypatch):
     monkeypatch.delitem(sys.modules, "rclpy.qos_event", raising=False)
-    with pytest.warns(DeprecationWarning, match=r"import from rclpy\.event_handler"):
+    with pytest.warns(UserWarning, match="import 'event_handler' instead"):
         qos_event = importlib.import_module("rclpy.qos_event")
     for name in qos_event.__all__:
         assert getattr(qos_event, name) is getattr(event_handler, name)

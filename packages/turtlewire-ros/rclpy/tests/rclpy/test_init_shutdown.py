@@ -13,6 +13,7 @@ from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from rclpy.utilities import get_default_context, remove_ros_args, timeout_sec_to_nsec
 from std_msgs.msg import Int32
 from std_srvs.srv import Empty
@@ -318,6 +319,62 @@ def test_after_shutdown_nothing_more_is_created_or_called(monkeypatch, middlewar
     node.destroy_node()
 
 
+#: What each call says after a shutdown, as a real Jazzy does (without its file and line).
+AFTER_SHUTDOWN = {
+    "Failed to create publisher: rcl node's": CREATORS["publisher"],
+    "Failed to create subscription: rcl node's": CREATORS["subscription"],
+    "failed to create client: rcl node's": CREATORS["client"],
+    "failed to create service: rcl node's": CREATORS["service"],
+    "failed to create timer: the given": lambda node: node.create_timer(1.0, print),
+    "failed to create guard_condition: the given": lambda node: node.create_guard_condition(print),
+    "Failed to get node names: rcl node's": lambda node: node.get_node_names(),
+    "failed to get topic names and types: rcl": lambda node: node.get_topic_names_and_types(),
+    "failed to get service names and types: rcl": lambda node: node.get_service_names_and_types(),
+    "failed to get publisher names and types: rcl": lambda node: (
+        node.get_publisher_names_and_types_by_node("late", "/")
+    ),
+    "failed to get subscriber names and types: rcl": lambda node: (
+        node.get_subscriber_names_and_types_by_node("late", "/")
+    ),
+    "failed to get client names and types: rcl": lambda node: (
+        node.get_client_names_and_types_by_node("late", "/")
+    ),
+    "Error in rcl_count_publishers: rcl": lambda node: node.count_publishers("topic"),
+    "Error in rcl_count_subscribers: rcl": lambda node: node.count_subscribers("topic"),
+    "Error in rcl_count_clients: rcl": lambda node: node.count_clients("other"),
+    "Error in rcl_count_services: rcl": lambda node: node.count_services("other"),
+    "Failed to get information by topic for publishers: rcl": lambda node: (
+        node.get_publishers_info_by_topic("topic")
+    ),
+    "Failed to get information by topic for subscriptions: rcl": lambda node: (
+        node.get_subscriptions_info_by_topic("topic")
+    ),
+}
+PUBLISHER_AFTER_SHUTDOWN = {
+    "failed to get subscription count": Publisher.get_subscription_count,
+    "Failed to assert liveliness on the Publisher": Publisher.assert_liveliness,
+    "Failed to wait for all acknowledgements": Publisher.wait_for_all_acked,
+}
+
+
+def test_calls_after_shutdown_raise_what_ros_2_raises():
+    rclpy.init(args=[])
+    node = Node("late")
+    publisher = node.create_publisher(Int32, "early", 1)
+    rclpy.shutdown()
+    for text, call in AFTER_SHUTDOWN.items():
+        with pytest.raises(RCLError) as caught:
+            call(node)
+        assert str(caught.value).startswith(text)
+    with pytest.raises(RCLError, match="failed to create timer"):
+        node.create_rate(1.0)
+    for text, call in PUBLISHER_AFTER_SHUTDOWN.items():
+        with pytest.raises(RCLError) as caught:
+            call(publisher)
+        assert str(caught.value) == f"{text}: publisher's context is invalid"
+    node.destroy_node()
+
+
 def test_every_module_is_an_attribute_of_the_package():
     names = (
         "time duration clock qos executors logging parameter callback_groups action node task "
@@ -337,6 +394,7 @@ def test_the_import_and_a_node_load_nothing_heavy():
     program = """
 import rclpy, sys
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 rclpy.init()
 node = Node("light")
 heavy = {"numpy", "asyncio.events", "inspect", "concurrent.futures", "dataclasses",
@@ -431,3 +489,8 @@ print(get_logger("a").get_effective_level().name)
 """
     done = run_python(program, timeout=60)
     assert done.stdout.split() == ["0", "INFO", "2", "DEBUG", "2", "1", "0", "WARN"]
+
+
+def test_a_context_has_no_domain_before_init():
+    with pytest.raises(RuntimeError, match="must be initialized before it can have a domain id"):
+        Context().get_domain_id()

@@ -628,3 +628,10 @@ def test_they_are_read_as_a_dictionary(parameters):
     assert parameters.get("none") is None
     with pytest.raises(KeyError):
         parameters["none"]
+
+
+@pytest.mark.parametrize("step", ["on_set", "post_set"])
+def test_a_callback_that_is_not_callable(node, step):
+    with pytest.raises(TypeError) as caught:
+        getattr(node, f"add_{step}_parameters_callback")(None)
+    assert caught.value.args == ("Callback must be callable, got {}", type(None))

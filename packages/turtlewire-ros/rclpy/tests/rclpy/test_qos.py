@@ -74,6 +74,12 @@ def test_short_keys():
     )
 
 
+def test_the_best_available_durations():
+    best = qos_profile_best_available
+    assert best.deadline == qos.DeadlineBestAvailable
+    assert best.liveliness_lease_duration == qos.LivelinessLeaseDurationeBestAvailable
+
+
 def test_durations_and_numbers_reach_the_wire():
     assert QoSProfile(depth=10).to_wire() == wire_qos.QoS()
     made = profile(
@@ -246,7 +252,8 @@ def test_text():
 @needs_cyclone_dds
 def test_compatibility(publisher, subscription, level, reason, monkeypatch):
     monkeypatch.setenv("RMW_IMPLEMENTATION", "rmw_cyclonedds_cpp")
-    answer = qos_check_compatible(profile(**publisher), profile(**subscription))
+    alive = {"liveliness": LivelinessPolicy.AUTOMATIC}
+    answer = qos_check_compatible(profile(**alive | publisher), profile(**alive | subscription))
     assert answer == (QoSCompatibility[level], reason)
     assert answer.compatibility is QoSCompatibility[level]
 

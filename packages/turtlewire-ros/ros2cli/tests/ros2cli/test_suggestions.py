@@ -154,6 +154,22 @@ def test_a_type_without_its_package(capsys, name):
 
 
 @pytest.mark.parametrize(
+    "line", ["topic pub /x", "topic echo /x", "service call /x", "action send_goal /x"]
+)
+def test_an_interface_without_its_python_package(capsys, tmp_path, monkeypatch, line):
+    kind = {"topic": "msg", "service": "srv", "action": "action"}[line.split()[0]]
+    package = tmp_path / "share/half_msgs"
+    (tmp_path / "share/ament_index/resource_index/packages").mkdir(parents=True)
+    (tmp_path / "share/ament_index/resource_index/packages/half_msgs").touch()
+    (package / kind).mkdir(parents=True)
+    text = "int32 x\n" + {"msg": "", "srv": "---\n", "action": "---\n---\n"}[kind]
+    (package / kind / f"Half.{kind}").write_text(text)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    _, hint = errors(capsys, *line.split(), f"half_msgs/{kind}/Half", *["{}"] * (kind == "action"))
+    assert hint.startswith(f"half_msgs/{kind}/Half is defined, but Python cannot import half_msgs")
+
+
+@pytest.mark.parametrize(
     ("line", "error"),
     [
         ("interface show nav2_msgs/action/Spin", "Unknown package 'nav2_msgs'"),
@@ -222,18 +238,6 @@ def test_an_interface_package_that_is_cloned(capsys, tmp_path, monkeypatch):
         "'nav2_msgs' is in src/navigation2/nav2_msgs, but it is not built: "
         "colcon build --packages-select nav2_msgs && source install/setup.bash"
     )
-
-
-def test_an_interface_without_a_module(capsys, tmp_path, monkeypatch):
-    index = tmp_path / "share/ament_index/resource_index/rosidl_interfaces/only_defined"
-    definition = tmp_path / "share/only_defined/srv/Ask.srv"
-    for file, text in ((index, "srv/Ask.srv\n"), (definition, "---\n")):
-        file.parent.mkdir(parents=True)
-        file.write_text(text)
-    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
-    told, hint = errors(capsys, "service", "call", "/x", "only_defined/srv/Ask")
-    assert told == "The passed service type is invalid"
-    assert hint.startswith("only_defined/srv/Ask is defined, but Python cannot import only_defined")
 
 
 @pytest.mark.usefixtures("pose_publisher")

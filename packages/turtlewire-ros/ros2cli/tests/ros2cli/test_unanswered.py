@@ -297,7 +297,10 @@ def test_a_goal_waits_no_longer_than_it_is_told(run):
 def test_a_class_that_is_no_service(run):
     verb = ros2(run, "service", "call", "/x", "std_msgs/msg/String")
     assert verb.wait() == 1
-    assert verb.text.startswith("The service type provided is not valid (<class ")
+    assert verb.text == (
+        "The service type provided is not valid (<class 'std_msgs.msg._string.String'>), "
+        "this might be a message or action"
+    )
 
 
 # Commands end with the reason when a server would misread their requests.
