@@ -60,7 +60,7 @@ class BasePublisher(Generic[MsgT]):
         self,
         publisher_impl: EndpointImpl,
         msg_type: type[MsgT],
-        topic: str,  # noqa: ARG002 - the implementation knows the full name
+        topic: str,
         qos_profile: QoSProfile,
         *,
         on_destroy: Callable[[Any], None] | None = None,
@@ -68,7 +68,7 @@ class BasePublisher(Generic[MsgT]):
         wire, core = publisher_impl
         self.msg_type = msg_type
         self.qos_profile = qos_profile
-        self.topic: str = wire.topic
+        self.topic = topic
         self._wire: base.Publisher = wire
         self._core = core
         self._context = core.context
@@ -135,7 +135,7 @@ class BasePublisher(Generic[MsgT]):
     def topic_name(self) -> str:
         """Fully qualified name of the topic."""
         self._check_usable()
-        return self.topic
+        return self._wire.topic
 
     @property
     def handle(self) -> Handle:

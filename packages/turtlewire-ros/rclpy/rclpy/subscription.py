@@ -77,7 +77,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
         self,
         subscription_impl: EndpointImpl,
         msg_type: type[MsgT],
-        topic: str,  # noqa: ARG002 - the implementation knows the full name
+        topic: str,
         callback: Callable[..., Any],
         qos_profile: QoSProfile,
         raw: bool,
@@ -90,7 +90,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
         self.msg_type = msg_type
         self.qos_profile = qos_profile
         self.raw = raw
-        self.topic: str = wire.topic
+        self.topic = topic
         self.event_handlers: list[Any] = []
         self.callback = callback
         self._wire: base.Subscription = wire
@@ -112,7 +112,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
     def topic_name(self) -> str:
         """Fully qualified name of the topic."""
         self._check_usable()
-        return self.topic
+        return self._wire.topic
 
     @property
     def logger_name(self) -> str:
@@ -158,7 +158,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
         self._check_usable()
         return with_hint(
             RCLError(f"cannot {verb} the content filter: the middleware does not filter messages"),
-            f"All messages of '{self.topic}' arrive: filter them in the callback",
+            f"All messages of '{self._wire.topic}' arrive: filter them in the callback",
         )
 
     def _attach(self, host: EntityHost) -> None:
@@ -186,7 +186,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
             except CdrError as error:
                 # The publisher's mistake must not end the spin of this program.
                 self._logger.error(  # noqa: TRY400 - a ROS logger
-                    f"Ignoring a malformed message on topic '{self.topic}': {error}",
+                    f"Ignoring a malformed message on topic '{self._wire.topic}': {error}",
                     throttle_duration_sec=5.0,
                 )
                 return None

@@ -78,8 +78,8 @@ class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
         """
         if not self._is_iterated:
             raise RuntimeError(
-                f"The messages of '{self.topic}' go to the callback of this subscription: create "
-                "it with None as the callback to iterate over them"
+                f"The messages of '{self.topic_name}' go to the callback of this subscription: "
+                "create it with None as the callback to iterate over them"
             )
         return self
 

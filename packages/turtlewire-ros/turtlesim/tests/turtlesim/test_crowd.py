@@ -124,8 +124,8 @@ def test_messages_without_a_subscription_are_not_created(monkeypatch, crowd_from
     publish = Publisher.publish
 
     def record(publisher, message):
-        if publisher.topic.endswith(("/pose", "/color_sensor")):
-            done.append(publisher.topic)
+        if publisher.topic_name.endswith(("/pose", "/color_sensor")):
+            done.append(publisher.topic_name)
         publish(publisher, message)
 
     monkeypatch.setattr(Publisher, "publish", record)
