@@ -48,7 +48,7 @@ class Rig:
         )
         self._handled = 0
         (subscription,) = (
-            found for found in self.publisher.subscriptions if found.topic == "/joint_states"
+            found for found in self.publisher.subscriptions if found.topic_name == "/joint_states"
         )
         handle = subscription.callback
 
