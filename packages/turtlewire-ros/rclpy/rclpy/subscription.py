@@ -6,7 +6,7 @@ from collections.abc import Callable
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Generic, Protocol
 
-from turtlewire.distro import LYRICAL, since
+from turtlewire.distro import KILTED, LYRICAL, since
 from turtlewire.errors import CdrError
 from turtlewire.msg import deserialize
 
@@ -66,6 +66,7 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
     """
 
     _WRONG_CALLBACK = f"Subscription {_CALLBACK_SHAPES}"
+    _names_publisher = since(KILTED)
 
     class CallbackType(Enum):
         """The number of arguments that a callback takes."""
@@ -194,16 +195,18 @@ class BaseSubscription(ClosingEntity, Generic[MsgT]):
         return None
 
     def _info(self, info: base.MessageInfo) -> MessageInfo:
-        return {
+        values: MessageInfo = {
             "source_timestamp": info.source_timestamp_ns,
             "received_timestamp": info.received_timestamp_ns,
             "publication_sequence_number": info.publication_number,
             "reception_sequence_number": None,
-            "publisher_gid": {
+        }
+        if self._names_publisher:
+            values["publisher_gid"] = {
                 "implementation_identifier": get_rmw_implementation_identifier(),
                 "data": info.publisher_gid,
-            },
-        }
+            }
+        return values
 
     def _close(self) -> None:
         for handler in self.event_handlers:

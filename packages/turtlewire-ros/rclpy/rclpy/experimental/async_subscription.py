@@ -43,6 +43,8 @@ class AsyncSubscription(AsyncEndpoint, BaseSubscription[MsgT]):
         qos_profile: Its quality of service.
     """
 
+    _names_publisher = True
+
     def __init__(
         self,
         subscription_impl: EndpointImpl,

@@ -82,10 +82,7 @@ def test_message_info(context, node, spin_until):
         "received_timestamp",
         "publication_sequence_number",
         "reception_sequence_number",
-        "publisher_gid",
     }
-    gid = info["publisher_gid"]["data"]
-    assert gid == bytes(node.get_publishers_info_by_topic("number")[0].endpoint_gid)
     assert (
         before - 1_000_000
         <= info["source_timestamp"]
