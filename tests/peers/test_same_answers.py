@@ -29,3 +29,4 @@ def test_ours_and_a_real_rclpy_give_the_same_answers(section, real, run, venv, t
     ours = answers(run(*command, environment=environment, cwd=tmp_path))
     asked = [ast.unparse(question) for question in sections(QUESTIONS)[section]]
     assert list(zip(asked, ours, strict=True)) == list(zip(asked, theirs, strict=True))
+    assert not any(answer.startswith("NameError") for answer in ours)  # an earlier statement failed
