@@ -21,9 +21,13 @@ if TYPE_CHECKING:
 
 NamesAndTypes = list[tuple[str, list[str]]]
 
-
-#: ROS 2's words for the kinds of endpoints, in its error messages.
-_WORDS = {"subscription": "subscriber"}
+#: ROS 2's words for the kinds of endpoints in its error messages.
+_WORDS = {
+    "publisher": "publisher",
+    "subscription": "subscriber",
+    "service": "service",
+    "client": "client",
+}
 _FEEDBACK = "/_action/feedback"
 _FEEDBACK_TYPE = "_FeedbackMessage"
 
@@ -109,19 +113,20 @@ class NodeGraph:
 
     def _of_node(
         self,
-        what: str,
         kind: str,
+        end: str,
         node_name: str,
         node_namespace: str,
         name_and_type: Callable[[EndpointInfo], tuple[str, str] | None],
     ) -> NamesAndTypes:
-        graph = self._graph(f"failed to get {_WORDS.get(what, what)} names and types")
+        """Return what a node has of a ``kind``; ``end`` is the kind of endpoint on the wire."""
+        word = _WORDS[kind]
+        graph = self._graph(f"failed to get {word} names and types")
         if not any(
             (node.name, node.namespace) == (node_name, node_namespace) for node in graph.nodes()
         ):
-            what = "subscriber" if what == "subscription" else what
             error = NodeNameNonExistentError(
-                f"cannot get {what} names and types for nonexistent node: error not set"
+                f"cannot get {word} names and types for nonexistent node: error not set"
             )
             fqn = names.fully_qualified_node_name(node_name, node_namespace)
             raise with_hint(error, f"No node {fqn} is known")
@@ -129,7 +134,7 @@ class NodeGraph:
         for endpoint in graph.endpoints():
             owner = endpoint.node
             if (
-                endpoint.kind != kind
+                endpoint.kind != end
                 or owner is None
                 or (owner.name, owner.namespace) != (node_name, node_namespace)
             ):
@@ -146,7 +151,7 @@ class NodeGraph:
             ValueError: The name breaks the rules.
         """
         name = self._full_name(topic)
-        graph = self._graph(f"Error in rcl_count_{_WORDS.get(kind, kind)}s")
+        graph = self._graph(f"Error in rcl_count_{_WORDS[kind]}s")
         return len(graph.endpoints_of(name, kind))
 
     def count_service(self, kind: str, service: str) -> int:

@@ -89,12 +89,7 @@ def parse_value(text: str) -> ParameterValue:
     Raises:
         RuleError: ``text`` is neither a scalar nor a sequence of scalars of one type.
     """
-    try:
-        return _Parser(text).value_document()
-    except RuleError:
-        raise
-    except (yaml.YAMLError, ValueError) as error:
-        raise RuleError("Error parsing an event") from error
+    return _Parser(text, "Error parsing an event").value_document()
 
 
 def parse_file(path: str) -> dict[str, dict[str, ParameterValue]]:
@@ -111,43 +106,48 @@ def parse_file(path: str) -> dict[str, dict[str, ParameterValue]]:
             text = file.read()
     except (OSError, ValueError) as error:
         raise RuleError("Error opening YAML file") from error
-    parser = _Parser(text)
-    try:
-        return parser.file_document()
-    except RuleError:
-        raise
-    except (yaml.YAMLError, ValueError) as error:
-        raise RuleError(f"Error parsing a event near line {parser.line}") from error
+    return _Parser(text, "Error parsing a event near line {line}").file_document()
 
 
 class _Parser:
-    """Walks the events of one YAML document."""
+    """Walks the events of one YAML document.
 
-    def __init__(self, text: str) -> None:
-        self.line = 1
+    Args:
+        text: The document.
+        fault: The error's text if it is not YAML.
+    """
+
+    def __init__(self, text: str, fault: str) -> None:
+        self._fault = fault
+        self._line = 1
         self._depth = 0
         self._events = self._read(text)
         self._nodes: dict[str, dict[str, ParameterValue]] = {}
 
     def _read(self, text: str) -> Iterator[yaml.Event]:
-        for event in yaml.parse(text, Loader=yaml.SafeLoader):
-            if event.start_mark is not None:
-                self.line = event.start_mark.line + 1
-            if isinstance(event, yaml.AliasEvent):
-                raise RuleError(f"Will not support aliasing at line {self.line}\n")
-            if not isinstance(event, (yaml.StreamStartEvent, yaml.DocumentStartEvent)):
-                yield event
+        try:
+            for event in yaml.parse(text, Loader=yaml.SafeLoader):
+                if event.start_mark is not None:
+                    self._line = event.start_mark.line + 1
+                if isinstance(event, yaml.AliasEvent):
+                    raise RuleError(f"Will not support aliasing at line {self._line}\n")
+                if not isinstance(event, (yaml.StreamStartEvent, yaml.DocumentStartEvent)):
+                    yield event
+        except (yaml.YAMLError, ValueError) as error:
+            if isinstance(error, RuleError):
+                raise
+            raise RuleError(self._fault.format(line=self._line)) from error
 
     def value_document(self) -> ParameterValue:
         event = next(self._events)
         if isinstance(event, yaml.MappingStartEvent):
             raise RuleError("Unknown YAML event")
         if isinstance(event, yaml.StreamEndEvent):
-            raise RuleError(f"No value at line {self.line}")
+            raise RuleError(f"No value at line {self._line}")
         value = self._value(event)
         for event in self._events:
             if not isinstance(event, (yaml.DocumentEndEvent, yaml.StreamEndEvent)):
-                raise RuleError(f"More than one value, the second at line {self.line}")
+                raise RuleError(f"More than one value, the second at line {self._line}")
         return value
 
     def file_document(self) -> dict[str, dict[str, ParameterValue]]:
@@ -155,16 +155,18 @@ class _Parser:
             if isinstance(event, yaml.MappingStartEvent):
                 self._node_names("")
             elif isinstance(event, yaml.SequenceStartEvent):
-                raise RuleError(f"Sequences cannot be key at line {self.line}")
+                raise RuleError(f"Sequences cannot be key at line {self._line}")
             elif not isinstance(event, (yaml.DocumentEndEvent, yaml.StreamEndEvent)):
-                raise RuleError(f"Cannot have a value before {_PARAMETERS_KEY} at line {self.line}")
+                raise RuleError(
+                    f"Cannot have a value before {_PARAMETERS_KEY} at line {self._line}"
+                )
         return self._nodes
 
     @contextmanager
     def _one_level_down(self) -> Iterator[None]:
         self._depth += 1
         if self._depth > _DEEPEST:
-            raise RuleError(f"More than {_DEEPEST} names within each other at line {self.line}")
+            raise RuleError(f"More than {_DEEPEST} names within each other at line {self._line}")
         yield
         self._depth -= 1
 
@@ -177,39 +179,41 @@ class _Parser:
             if isinstance(event, yaml.MappingEndEvent):
                 return
             if isinstance(event, yaml.SequenceStartEvent):
-                raise RuleError(f"Sequences cannot be key at line {self.line}")
+                raise RuleError(f"Sequences cannot be key at line {self._line}")
             if not isinstance(event, yaml.ScalarEvent):
-                raise RuleError(f"Mappings cannot be key at line {self.line}")
+                raise RuleError(f"Mappings cannot be key at line {self._line}")
             yield event.value
 
     def _node_names(self, prefix: str) -> None:
         for key in self._keys():
             if key == _PARAMETERS_KEY and not prefix:
                 raise RuleError(
-                    f"There are no node names before {_PARAMETERS_KEY} at line {self.line}"
+                    f"There are no node names before {_PARAMETERS_KEY} at line {self._line}"
                 )
             event = next(self._events)
             if key == _PARAMETERS_KEY:
                 if not isinstance(event, yaml.MappingStartEvent):
                     raise RuleError(
-                        f"Cannot have a value before {_PARAMETERS_KEY} at line {self.line}"
+                        f"Cannot have a value before {_PARAMETERS_KEY} at line {self._line}"
                     )
                 self._parameters(self._nodes.setdefault(prefix, {}), "")
             elif isinstance(event, yaml.MappingStartEvent):
                 with self._one_level_down():
                     self._node_names(f"{prefix.rstrip('/')}/{key.lstrip('/')}" if prefix else key)
             elif isinstance(event, yaml.ScalarEvent):
-                raise RuleError(f"Cannot have a value before {_PARAMETERS_KEY} at line {self.line}")
+                raise RuleError(
+                    f"Cannot have a value before {_PARAMETERS_KEY} at line {self._line}"
+                )
             else:
                 raise RuleError(
                     "Sequences can only be values and not keys in params. Error at line "
-                    f"{self.line}\n"
+                    f"{self._line}\n"
                 )
 
     def _check_tag(self, event: yaml.CollectionStartEvent, *known: str) -> None:
         """Reject another tag of a sequence or mapping than those that are known."""
         if since(LYRICAL) and event.tag not in {None, "!", *known}:
-            raise RuleError(f'Unsupport tag "{event.tag}" at line {self.line}')
+            raise RuleError(f'Unsupport tag "{event.tag}" at line {self._line}')
 
     def _parameters(self, parameters: dict[str, ParameterValue], prefix: str) -> None:
         for key in self._keys():
@@ -233,18 +237,19 @@ class _Parser:
             if isinstance(item, yaml.SequenceEndEvent):
                 return values  # type: ignore[return-value]  # the types have been compared
             if not isinstance(item, yaml.ScalarEvent):
-                raise RuleError(f"Sequences can only hold plain values. Error at line {self.line}")
+                raise RuleError(f"Sequences can only hold plain values. Error at line {self._line}")
             if since(LYRICAL) and _BINARY_TAG in {event.tag, item.tag}:
                 raise RuleError(
                     "Byte array must be encoded as a base64 string, not a sequence, cannot parse "
-                    f"value {item.value} at line {self.line}"
+                    f"value {item.value} at line {self._line}"
                 )
             value = self._scalar(item)
             if type(value) is bool and item.value.lower() not in {"true", "false"}:
                 hint = f"\nYAML reads {item.value} as a bool: for the text, write '{item.value}'"
             if values and type(value) is not type(values[0]):
                 text = (
-                    f"Value type '{_TYPE_NAMES[type(value)]}' do not belong at line_num {self.line}"
+                    f"Value type '{_TYPE_NAMES[type(value)]}' do not belong at line_num "
+                    f"{self._line}"
                 )
                 raise RuleError(f"Sequence should be of same type. {text}{hint}")
             values.append(value)
@@ -258,7 +263,7 @@ class _Parser:
         if event.style in {"'", '"'}:
             return str(event.value)
         if not event.value:
-            raise RuleError(f"No value at line {self.line}")
+            raise RuleError(f"No value at line {self._line}")
         return _plain_scalar(event.value)
 
     def _tagged_scalar(self, event: yaml.ScalarEvent) -> _Scalar:
@@ -274,8 +279,8 @@ class _Parser:
             if type(value) is _TAGGED[kind]:
                 return value
         elif kind not in {"seq", "map"}:
-            raise RuleError(f'Unsupport tag "{event.tag}" at line {self.line}')
-        raise RuleError(f"Error parsing value {text} at line {self.line}")
+            raise RuleError(f'Unsupport tag "{event.tag}" at line {self._line}')
+        raise RuleError(f"Error parsing value {text} at line {self._line}")
 
 
 def _plain_scalar(text: str) -> bool | int | float | str:

@@ -49,9 +49,11 @@ _HEADING = re.compile(r"^(?:MSG|SRV|IDL): *(\S+)[^\n]*\n?")
 
 
 def in_ros2msg(type_name: str, encoding: str, text: str) -> tuple[str, str]:
-    """Translate a definition from ``ros2idl``, and return its encoding and text.
+    """Translate a definition from ``ros2idl`` to ``ros2msg``.
 
-    Another one, or one that cannot be translated, stays as it is.
+    Returns:
+        Its encoding and text. A definition in another encoding, or one that cannot be translated,
+        is returned unchanged.
     """
     if encoding != "ros2idl":
         return encoding, text

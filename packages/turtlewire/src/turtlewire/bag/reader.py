@@ -12,7 +12,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from turtlewire.bag.compression import unpack_file, unpacked
-from turtlewire.bag.definitions import has_interface, in_ros2msg, learn_types
+from turtlewire.bag.definitions import ENCODING, has_interface, in_ros2msg, learn_types
 from turtlewire.bag.files import joined, open_storage, overlapping, storage_files
 from turtlewire.bag.message_choice import (
     check_unit,
@@ -175,9 +175,9 @@ class Bag:
         Raises:
             InterfaceError: A definition cannot be parsed.
         """
-        for name, (encoding, text) in self.definitions().items():
-            encoding, text = in_ros2msg(name, encoding, text)  # noqa: PLW2901
-            if encoding == "ros2msg" and text:
+        for name, definition in self.definitions().items():
+            encoding, text = in_ros2msg(name, *definition)
+            if encoding == ENCODING and text:
                 learn_types(name, text)
 
     def files(self) -> Iterator[StorageFile]:
@@ -322,11 +322,11 @@ class Bag:
         self._types_seen |= types
         if not unknown:
             return
-        for name, (encoding, text) in file.definitions().items():
+        for name, definition in file.definitions().items():
             if name not in unknown:
                 continue
-            encoding, text = in_ros2msg(name, encoding, text)  # noqa: PLW2901
-            if encoding == "ros2msg" and text:
+            encoding, text = in_ros2msg(name, *definition)
+            if encoding == ENCODING and text:
                 try:
                     learn_types(name, text)
                 except InterfaceError as error:
